@@ -2,7 +2,6 @@
 
 What each module knows; it imports only those above it:
 
-    files             where a path leads, and where packages are
     spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
     loader            the files of one compile, each read once -> SpecFile
     uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes

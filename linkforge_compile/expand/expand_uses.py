@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +14,8 @@ from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
-from linkforge_compile.expand.modules import ModuleEntry, read_modules
+from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
+from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
@@ -35,7 +36,8 @@ from linkforge_compile.expand.uses import (
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import leaves_in
 
 if TYPE_CHECKING:
     from linkforge_compile.expand.xacro import Expansion, XacroUse
@@ -109,8 +111,6 @@ class _Expansion:
         removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
         references = scope.builtins.references
         if use.entry and use.entry.overrides:
-            from linkforge_compile.expand.modules import ModuleBody
-
             body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
             references = references_left(references, tree, body.tree) if references else references
             tree, entries, removed = body.tree, body.entries, body.removed
@@ -203,8 +203,6 @@ def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap 
     assert isinstance(tree, YamlMap), "a map that is computed is a map"
     if spec.tree.get("defaults") is None:
         return tree, None
-    from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
-
     defaults = compute_defaults(spec.tree, evaluator)
     return with_defaults(tree, defaults) if defaults else tree, defaults
 
@@ -231,22 +229,8 @@ def references_left(
     references: Iterable[NameReference], before: YamlNode, after: YamlNode
 ) -> tuple[NameReference, ...]:
     """Return the references in texts that an override has not removed from a tree."""
-    removed = set(_places(before)) - set(_places(after))
+    removed = {Span(*leaf.span) for leaf in leaves_in(before)} - {Span(*leaf.span) for leaf in leaves_in(after)}
     return tuple(one for one in references if not any(map(one.where.span.lies_in, removed)))
-
-
-def _places(node: YamlNode) -> Iterator[Span]:
-    """Yield the spans of the scalars and keys of a tree."""
-    match node:
-        case YamlScalar():
-            yield Span(*node.span)
-        case YamlList():
-            for item in node:
-                yield from _places(item)
-        case YamlMap():
-            for entry in node:
-                yield Span(*entry.key.span)
-                yield from _places(entry.value)
 
 
 def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:

@@ -22,7 +22,6 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
@@ -40,6 +39,7 @@ from linkforge_compile.expressions import (
     as_text,
     kind_name,
 )
+from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
@@ -175,8 +175,7 @@ class FileScope:
     def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
         """Yield the entries of `variables` or `data` with valid names that no section before declares."""
         kind = _KINDS[section]
-        declared = self._spec.tree.get(section)
-        for entry in declared if isinstance(declared, YamlMap) else ():
+        for entry in self._spec.tree.section(section).values():
             other = self._declared_before(entry.name, section)
             if other:
                 self._ambiguous.add(entry.name)
@@ -191,9 +190,8 @@ class FileScope:
         for other, kind in _KINDS.items():
             if other == section:
                 return None
-            declared = self._spec.tree.get(other)
-            if isinstance(declared, YamlMap) and name in declared.entries:
-                return kind, declared.entries[name].key
+            if name in (declared := self._spec.tree.section(other)):
+                return kind, declared[name].key
         return None
 
     def _lazy(self, compute: Callable[[YamlEntry], Value | Fault], entry: YamlEntry) -> Lazy:

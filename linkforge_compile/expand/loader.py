@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
-from linkforge_compile.expand.files import as_typed, names_in, searched_note
 from linkforge_compile.expand.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
+from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
 from linkforge_compile.source.characters import UnreadableError, begins_xml
@@ -24,7 +24,6 @@ from linkforge_compile.syntax.parser import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.files import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"
 

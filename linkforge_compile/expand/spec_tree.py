@@ -20,8 +20,8 @@ from linkforge_compile.diagnostics.codes.modules import (
     SET_BY_MAIN_FILE,
     TOO_MANY_INCLUDES,
 )
-from linkforge_compile.expand.files import follow
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.paths import follow
 from linkforge_compile.roots import identity
 from linkforge_compile.schema import validate
 from linkforge_compile.schema.json_schema import WORDS

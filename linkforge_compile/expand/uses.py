@@ -9,19 +9,16 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
-from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.paths import Package, find_package, follow, unknown_package
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
-
-if TYPE_CHECKING:
-    from linkforge_compile.expand.files import Package
 
 SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
@@ -103,8 +100,6 @@ def _locate_in_package(site: PathSite, path: str, loader: Loader, sink: Diagnost
     match = _PACKAGE_PATH.fullmatch(path)
     if match is None:
         return _report_unusable(site, "it takes the form package://NAME/PATH", sink)
-    from linkforge_compile.expand.files import Package, find_package, unknown_package
-
     name, start, roots = match[1], site.user.folder, loader.roots
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, start, roots)

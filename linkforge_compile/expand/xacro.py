@@ -24,10 +24,10 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.files import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import Fault
+from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity
