@@ -109,7 +109,7 @@ class _Expansion:
         tree, defaults = _robot_tree(use.spec, scope.evaluator)
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
         removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
-        references = scope.builtins.references
+        references = tuple(scope.references)
         if use.entry and use.entry.overrides:
             body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
             references = references_left(references, tree, body.tree) if references else references
@@ -139,7 +139,7 @@ class _Expansion:
         if entry.use is None:
             return _unread(entry)
         sink = scope.evaluator.sink
-        spec, arguments = self._open_robot(entry, scope.builtins.site(entry.use.text, entry.use.span), scope)
+        spec, arguments = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
         if spec is None:
             return _unread(entry)
         bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
@@ -156,7 +156,7 @@ class _Expansion:
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
-        srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
+        srdf_use = self._xacro_use(scope.site(srdf.text, srdf.span), entry, sink)
         semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
         # An SRDF that cannot be read may have used any argument.
         used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()

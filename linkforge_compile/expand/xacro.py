@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -62,7 +62,7 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     (main, *others), imported = robot
     tree, folder = imported.tree, use.path.parent
     included = {file: SpecFile(file, tree, folder, use.package) for file in others}
-    return SpecFile(main, tree, folder, use.package, included, use.packages or {})
+    return SpecFile(main, tree, folder, use.package, included, use.packages)
 
 
 def read_xacro(
@@ -150,7 +150,7 @@ class XacroUse:
     used: ImportSite
     arguments: Arguments
     evaluator: Evaluator | None = None
-    packages: Mapping[str, Path] | None = None
+    packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
 
@@ -165,7 +165,7 @@ class XacroAnswers:
         """Files outside of the roots."""
 
     def find(self, name: str) -> Path | None:
-        declared = {**(self._use.packages or {}), **self._loader.packages}
+        declared = {**self._use.packages, **self._loader.packages}
         folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
         if folder is None:
             self.missing_packages.append(name)
@@ -264,7 +264,7 @@ class XacroReporter:
 
     def _unknown_package(self, name: str, place: Span | None) -> Diagnostic:
         where, loader = self.use.used.where, self.loader
-        near = {**(self.use.packages or {}), **loader.packages}
+        near = {**self.use.packages, **loader.packages}
         notes = [Note("it is looked for here", place)] if where and place else []
         start, nearby = self.use.path.parent, loader.nearby_packages
         return unknown_package(where or place, name, start, loader.roots, nearby, near=near, notes=notes)
