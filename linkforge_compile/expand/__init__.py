@@ -12,7 +12,7 @@ What each module knows; it imports only those above it:
     parameters        a declaration -> type and constraints, which convert a value or refuse it
     parameter_values  declaration, arguments, variants -> the value in force
     file_scope        one use of a file -> the names, values and functions that its expressions know
-    merge_objects     objects in their long form; `defaults` -> merged into links, joints and sensors
+    defaults          objects in their long form; `defaults` -> merged into links, joints and sensors
     override          a patch and a tree -> the patched tree
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written

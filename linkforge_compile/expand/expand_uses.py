@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
 from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
+from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
-from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
 from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
