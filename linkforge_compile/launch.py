@@ -60,6 +60,14 @@ class _Text(Substitution):  # type: ignore[misc]  # the launch package has no ty
         return self._robot.compiled(context).texts[self._format.name]
 
 
+class _TextParameter(ParameterValue):  # type: ignore[misc]  # the launch_ros package has no types
+    """A text as a ROS parameter, evaluated anew each time; ParameterValue keeps its first value, in any launch."""
+
+    def evaluate(self, context: LaunchContext) -> str:
+        # Without a type, ROS would read the text as YAML.
+        return str(ParameterValue(self.value, value_type=str).evaluate(context))
+
+
 class _Compiled(NamedTuple):
     """The texts of one compile by format, with its launch, its variant and values, and its files."""
 
@@ -124,9 +132,8 @@ class RobotDescription:
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
         self._compiled: _Compiled | None = None
         self.urdf, self.srdf = _Text(self, URDF), _Text(self, SRDF)
-        # Without a type, ROS would read the text as YAML.
-        self.description = {"robot_description": ParameterValue(self.urdf, value_type=str)}
-        self.semantic = {"robot_description_semantic": ParameterValue(self.srdf, value_type=str)}
+        self.description = {"robot_description": _TextParameter(self.urdf, value_type=str)}
+        self.semantic = {"robot_description_semantic": _TextParameter(self.srdf, value_type=str)}
 
     def _argument(self, parameter: ListedParameter) -> DeclareLaunchArgument:
         default = self._defaults[parameter.name]
