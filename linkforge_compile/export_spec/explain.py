@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.values import NameOrigin, is_default, names_behind
+from linkforge_compile.expand.values import NameOrigin, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.provenance import place_of
+from linkforge_compile.export_spec.provenance import is_default, place_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Provenance, join_links, outward, uses_of
