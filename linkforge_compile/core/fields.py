@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
+from dataclasses import KW_ONLY, MISSING, dataclass, field, fields, replace
 from enum import StrEnum
 from functools import cache
 from types import NoneType
@@ -54,7 +54,7 @@ class Spec:
     `xml` is an XPath from the element in XML, `@lower` or `mass/@value`: where none is given, the attribute or child
     element of the field's name; empty where the value has no place of its own.
     `example` is what to write where the language requires the field, by motion if that matters; empty where it does
-    not require it.
+    not require it. `is_required_in_urdf` is whether readers of URDF refuse the element without it.
 
     `field_specs` fills in the rest. `implied` is the value of a field that is not written: the default of its class,
     None for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
@@ -63,6 +63,7 @@ class Spec:
     key: str | None = None
     xml: str | None = None
     example: str | Mapping[Motion, str] = ""
+    is_required_in_urdf: bool = field(default=False, kw_only=True)
     implied: Any = None  # a value of the field's own type
     may_be_none: bool = False
     container: type | None = None
@@ -86,7 +87,6 @@ class Number(Spec):
     stand_in: float | None = None
     is_whole: bool = False
     may_be_far: bool = False
-    is_required_in_urdf: bool = False
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from functools import partial
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
+from linkforge_compile.diagnostics.codes.expressions import WITHOUT_VALUES
 from linkforge_compile.diagnostics.codes.modules import (
     DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
-    NOT_JUDGED,
+    NOT_CHECKED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
@@ -54,7 +54,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 
 @dataclass(frozen=True)
 class CompileState:
-    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
+    """What all uses in one compile share; `variant` selects one of the compiled file, or several: `a+b`."""
 
     compiled: SpecFile
     loader: Loader
@@ -148,7 +148,7 @@ class FileScope:
         elif self._unset and not self._reports_unset:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
-            self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
+            self._sink.report(NOT_CHECKED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
 
     def check_unused_variables(self) -> None:
         """Report faults of unused variables and of variants that do not depend on values.
@@ -286,7 +286,7 @@ class _TextFaultSink(Diagnostics):
         self._sink = sink
 
     def report(self, diagnostic: Diagnostic) -> None:
-        if diagnostic.code in SEEN_IN_THE_TEXT:
+        if diagnostic.code in WITHOUT_VALUES:
             self._sink.report(diagnostic)
 
 

@@ -128,7 +128,7 @@ def _no_condition(value: Value, condition: YamlNode, evaluator: Evaluator) -> Di
     """Return the diagnostic for a condition that is neither true nor false, with a correction if there is one."""
     place = evaluator.place(condition)
     if isinstance(value, str) and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
-        return TRUTH_AS_TEXT.at(place, name=value, meant=truth)
+        return TRUTH_AS_TEXT.at(place, name=value, expected=truth)
     text = condition.text if isinstance(condition, YamlScalar) else ""
     expression = as_one_expression(text, condition.span, evaluator.scope)
     remedy = f"; write '{expression}'" if expression else ""

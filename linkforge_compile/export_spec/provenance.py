@@ -19,7 +19,7 @@ def compiled_folder(robot: Robot) -> Path | None:
     return path.parent if path else None
 
 
-def place_of(span: Span) -> Provenance:
+def written_at(span: Span) -> Provenance:
     """Return the link of a value that is written at a place, in the `defaults` of its file or elsewhere."""
     return Provenance(Kind.DEFAULT if is_default(span) else Kind.WRITTEN, span)
 

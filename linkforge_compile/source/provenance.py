@@ -193,14 +193,14 @@ def aliases_of(source: SourceRef, *path: str | int) -> tuple[Link, ...]:
 
 
 def aliases_on(steps: Iterable[Step]) -> Iterator[Span]:
-    """Yield the aliases and `<<` on the way to a node: an anchor stands above the place that uses it.
+    """Yield the aliases and `<<` on the way to a node: an anchor is above the place that uses it.
 
     A URDF has none, and its attributes and elements in any order.
     """
     place: Span | None = None
     for key, value in steps:
         if key == value:
-            continue  # nobody wrote this key: it has the place of what was put under it
+            continue  # the key is generated: it has the place of what was put under it
         for inner in (key, value):
             if inner and place and inner.file is place.file and inner.start < place.start and not inner.file.is_xml:
                 yield place

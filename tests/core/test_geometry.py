@@ -40,7 +40,7 @@ def test_a_vector_refuses_what_is_no_number_at_its_position(number, position):
     assert caught.value.field == (position,)
 
 
-def test_identity_is_the_pose_that_a_part_has_unless_said():
+def test_identity_is_the_default_pose_of_a_part():
     assert Transform.identity() == Transform() == Transform(Vector3(0, 0, 0), Vector3(0, 0, 0))
     assert str(Transform(Vector3(1, 2, 3))) == "xyz: 1 2 3, rpy: 0.0 0.0 0.0"
 
