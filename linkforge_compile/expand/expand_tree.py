@@ -9,7 +9,7 @@ from linkforge_compile.diagnostics.codes.expressions import UNKNOWN_NAME
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_REPETITION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator, report_interpolated_number
-from linkforge_compile.expand.repeat import occurrences, without_words
+from linkforge_compile.expand.repeat import makes_list, occurrences, without_words
 from linkforge_compile.expand.values import node_of, with_final_paths
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.schema import validate_computed
@@ -35,7 +35,7 @@ def expand_node(
         case YamlScalar():
             return _validated(_expand_scalar(node, evaluator, shape, is_free), key, shape, evaluator.sink)
         case YamlList():
-            item_shape = shape.item or (shape if shape.is_object else FREE)
+            item_shape = shape.item or (shape if shape.is_object or shape.is_for_plugins else FREE)
             items = (
                 expand_node(copy, inner, item_shape, key=key, is_free=is_free)
                 for item in node
@@ -75,7 +75,10 @@ def expand_entries(node: YamlMap, evaluator: Evaluator, shape: Shape) -> Iterato
             # A single object with `for` is an item of the list that may be written in its place.
             yield evaluator, YamlEntry(entry.key, YamlList((value,), value.span))
             continue
-        key = entry.key if shape.has_names else None
+        if makes_list(entry, shape, evaluator):
+            yield evaluator, YamlEntry(entry.key, YamlList((value,), value.span))
+            continue
+        key = entry.key if shape.has_names or shape.is_for_plugins else None
         for inner, copy in occurrences(value, value_shape, evaluator, key=key):
             yield inner, entry if copy is value else YamlEntry(entry.key, copy)
 

@@ -50,12 +50,15 @@ def occurrences(
     An entry of a map of names has a `key`, which must mention all `for` names. An entry or list item (`is_item`) that
     is not an object uses the long form. A faulty `for` or `when` is reported, and yields a YamlFault once.
     """
-    may_repeat = (shape.is_object or key is not None or is_item) and not shape.is_plain
-    if not (may_repeat and isinstance(node, YamlMap) and _FOR_AND_WHEN & node.entries.keys()):
+    may_repeat = shape.is_for_plugins or ((shape.is_object or key is not None or is_item) and not shape.is_plain)
+    words = _words_of(node, shape) if may_repeat and isinstance(node, YamlMap) else frozenset()
+    if shape.is_for_plugins and key is None and not is_item:
+        words &= shape.own_words
+    if not (isinstance(node, YamlMap) and words):
         yield evaluator, node
         return
-    body = _body(node, shape, evaluator.sink)
-    condition, names = node.get("when"), node.get("for")
+    body = _body_for_plugins(node, words) if shape.is_for_plugins else _body(node, shape, evaluator.sink)
+    condition, names = (node.get(word) if word in words else None for word in ("when", "for"))
     if body is None or isinstance(condition, YamlFault) or isinstance(names, YamlFault):
         yield evaluator, YamlFault(node.span)
         return
@@ -66,6 +69,31 @@ def occurrences(
         yield from _repeat(body, condition, names, entry, evaluator)
     else:
         yield evaluator, YamlFault(node.span)
+
+
+def _words_of(node: YamlMap, shape: Shape) -> frozenset[str]:
+    """Return those of `for` and `when` in a map that are no data of a plugin; XML has data alone."""
+    words = _FOR_AND_WHEN & node.entries.keys()
+    if not (words and shape.is_for_plugins):
+        return words
+    written = {word: node.entries[word].value for word in words}
+    return frozenset(word for word, value in written.items() if _is_word(word, value) and not value.span.file.is_xml)
+
+
+def _is_word(word: str, value: YamlNode) -> bool:
+    """Whether the value is one of `for`, a map, or of `when`: true, false, a misspelling of these, an expression."""
+    if word == "for" or not isinstance(value, YamlScalar):
+        return word == "for" and isinstance(value, YamlMap)
+    return isinstance(value.value, bool) or value.text.lower() in YAML_1_1_BOOLEANS or has_expression(value.text)
+
+
+def makes_list(entry: YamlEntry, around: Shape, evaluator: Evaluator) -> bool:
+    """Whether an entry of what a plugin reads repeats its tag: its `for` has no name that is in its key."""
+    node = entry.value
+    if not (around.has_lists_for_plugins and isinstance(node, YamlMap) and "for" in _words_of(node, around)):
+        return False
+    names = node.get("for")
+    return isinstance(names, YamlMap) and evaluator.names_in(entry.key).isdisjoint(names.entries)
 
 
 def without_words(node: YamlMap, shape: Shape, evaluator: Evaluator) -> tuple[YamlMap, Evaluator]:
@@ -101,6 +129,12 @@ def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
         sink.report(LONG_FORM.at(where, found=f"'{others[0].text}'" if others else "no 'value'"))
         return None
     return node.entries["value"].value
+
+
+def _body_for_plugins(node: YamlMap, words: Collection[str]) -> YamlNode:
+    """Return what occurs of the data of a plugin: the `value` if nothing else is there, or the rest of the map."""
+    rest = {name: entry for name, entry in node.entries.items() if name not in words}
+    return rest["value"].value if rest.keys() == {"value"} else YamlMap(rest, node.span)
 
 
 def _occur_once(
