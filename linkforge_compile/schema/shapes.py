@@ -50,7 +50,7 @@ class Shape:
         """Whether all keys are the author's own, even `for` and `when`."""
         self.is_for_plugins: Final = any(map(is_for_plugins, (schema, *branches(schema))))
         """Whether `for` and `when` are the author's own keys only with values that they could not have elsewhere."""
-        self.has_lists_for_plugins: Final = self.is_for_plugins and schema.get("additionalProperties") is True
+        self.has_elements: Final = self.is_for_plugins and schema.get("additionalProperties") is True
         """Whether its entries are elements, so that a list repeats a tag."""
         has_texts = self.is_for_plugins and isinstance(schema.get("additionalProperties"), dict)
         self.own_words: Final = frozenset[str]() if has_texts else frozenset({"when"})
