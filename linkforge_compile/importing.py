@@ -19,7 +19,7 @@ from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Checked, Packages, Parameters, Settings, check_alone
+from linkforge_compile.pipeline import Checked, Packages, Parameters, Settings, check_alone, compile_source
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, read
 
@@ -144,7 +144,7 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
 
 
 def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
-    from linkforge_compile.formats.limits import check_written_twice
+    from linkforge_compile.formats.limits import check_raw_names, check_written_twice
     from linkforge_compile.formats.parts import doubtful_parts_of_urdf
     from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
@@ -172,13 +172,23 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     sink.report_all(compiled.faults)
     # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
+        sink.report_all(check_raw_names(compiled.robot))
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(check_relative_mesh_paths(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
-    return _spec_text(whole, sink) if text is None else text
+    text = _spec_text(whole, sink) if text is None else text
+    if not sink.has_errors:
+        sink.report_all(_faults_of_text(text, urdf.path, settings))
+    return text
+
+
+def _faults_of_text(text: str, urdf: Path, settings: Settings) -> Iterator[Diagnostic]:
+    """Yield the errors of a spec as it is written, at its lines, which its tree did not have."""
+    compiled = compile_source(text, "<spec>", urdf.parent, settings._replace(parameters=None, output=None))
+    yield from (one for one in compiled.diagnostics if one.severity is Severity.ERROR)
 
 
 def _spec_text(imported: Imported, sink: Diagnostics) -> str:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Collection
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
+from linkforge_compile.diagnostics.codes.importing import MATERIAL_REPEATED, SRDF_FOR_URDF
 from linkforge_compile.importers.document import Imported, Move, place_comments, read_document
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
 from linkforge_compile.importers.link import Palette, read_joint, read_link
@@ -50,8 +50,9 @@ def read_urdf(
         return None
     _require_few_parts(root)
     draft, tree = _draft(root)
-    # What readers refuse has no form in the language, so there is none of it unless something is raw.
-    if draft.raw and not keeps_refused and (refusals := tuple(find_refusals(root))):
+    # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
+    has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
+    if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
         sink.report_all(refusal.diagnostic for refusal in refusals)
         draft, tree = _draft(root, frozenset(element for refusal in refusals for element in refusal.path))
     draft.report(sink)

@@ -30,6 +30,10 @@ def test_a_spec_comes_on_standard_output(arm, capfd: pytest.CaptureFixture[str])
     assert capfd.readouterr() == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
 
 
+RAW = '<material name="empty"/>'
+"""What only raw XML can represent."""
+
+
 def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     spec = tmp_path / "arm.robot.yaml"
     assert main(["import", arm(), "-o", str(spec)]) == 0
@@ -40,7 +44,7 @@ def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.Captu
 
 def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     spec = tmp_path / "arm.robot.yaml"
-    urdf = arm('some text<link name="base"/>')
+    urdf = arm(f"some text{RAW}")
     assert main(["import", urdf, "-o", str(spec)]) == 0
     assert "warning: text is not allowed in <robot>; 'some text' is left out [LF8101]" in capfd.readouterr().err
     spec.unlink()
@@ -48,7 +52,7 @@ def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pyte
     told = capfd.readouterr().err
     assert not spec.exists()
     assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in told
-    assert "warning: <link> is kept as raw XML" in told
+    assert "warning: <material> is kept as raw XML" in told
     assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 
@@ -69,8 +73,18 @@ def test_strict_reports_that_nothing_is_written_if_there_are_errors(arm, capfd: 
 
 
 def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
-    assert main(["import", arm('<link name="base"/>'), "--strict"]) == 0
+    assert main(["import", arm(RAW), "--strict"]) == 0
     assert "LF8021" in capfd.readouterr().err
+
+
+def test_a_spec_that_does_not_compile_fails(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    spec, red = tmp_path / "arm.robot.yaml", '<material name="red"><color rgba="{} 0 0 1"/></material>'
+    urdf = arm(red.format(1) + red.format(0.5))
+    assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
+    assert capfd.readouterr().err.endswith("\nnothing written: there are errors\n")
+    assert main(["import", urdf, "-o", str(spec)]) == 1
+    assert "[LF7160]" in capfd.readouterr().err
+    assert compile_file(spec).has_errors
 
 
 def test_a_spec_that_lacks_what_is_raw_is_written_and_fails(arm, capfd: pytest.CaptureFixture[str]):

@@ -32,6 +32,13 @@ NOTHING_EXPANDED = Code(
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
+MATERIAL_REPEATED = Code(
+    "LF8022",
+    _W,
+    "material '{name}' is declared again with the same content, and urdfdom refuses a robot with two of a name; the "
+    "spec has it once",
+)
+
 ENDS_KEPT_RAW = Code(
     "LF8090", _W, "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes"
 )
