@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
+from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.expand.uses import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
@@ -153,7 +153,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     arguments = settings.arguments(loader, sink)
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     declared = semantic.arguments if semantic else None if srdf else frozenset()
-    if urdf.path.suffix.lower() == XACRO:
+    if urdf.text is None and is_xacro(urdf.path):
         found = _read_xacro(urdf.path, arguments, declared, loader, sink)
     else:
         found = _read_urdf(urdf, arguments, declared, loader, sink)

@@ -14,10 +14,10 @@ from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.spec_tree import is_computed
 from linkforge_compile.expand.uses import (
     COMPUTING,
-    XACRO,
     Instance,
     PathSite,
     charge_entries,
+    is_xacro,
     mesh_base,
     mesh_finder,
     own_name,
@@ -26,7 +26,6 @@ from linkforge_compile.expand.uses import (
 from linkforge_compile.source import Span
 
 __all__ = [
-    "XACRO",
     "Arguments",
     "CliArgument",
     "ImportSite",
@@ -37,6 +36,7 @@ __all__ = [
     "arguments_from_text",
     "arguments_from_values",
     "expand",
+    "is_xacro",
 ]
 
 

@@ -164,3 +164,17 @@ def test_an_argument_that_is_used_and_declared_nowhere_can_be_given(tmp_path: Pa
     assert import_urdf(file, arguments=["link:=b"]).diagnostics == ()
     [told] = import_urdf(file).diagnostics
     assert told.code.id == "LF3021"
+
+
+@pytest.mark.parametrize("name", ["arm.urdf", "arm.xacro.urdf"])
+def test_a_urdf_that_is_a_xacro_is_expanded(tmp_path: Path, name: str):
+    pytest.importorskip("xacro")
+    size = '<xacro:property name="size" value="2"/>' if name == "arm.urdf" else ""
+    radius = "${size}" if size else "$(optenv NO_SUCH_VARIABLE 2)"
+    shape = f'<link name="a"><visual><geometry><sphere radius="{radius}"/></geometry></visual></link>'
+    (tmp_path / name).write_text(f'{HEAD} name="r">{size}{shape}</robot>', "utf-8")
+    spec = tmp_path / "cell.robot.yaml"
+    spec.write_text(f"linkforge: 1\nname: cell\nmodules: {{arm: {{use: {name}}}}}\n", "utf-8")
+    assert "sphere: 2" in (import_urdf(tmp_path / name).text or "")
+    for file in (tmp_path / name, spec):
+        assert compile_file(file).result().links[0].visuals[0].geometry.radius == 2

@@ -19,6 +19,10 @@ NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
 STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro syntax, which is expanded only in a file named '{name}'")
 
+LEFT_BY_XACRO = Code(
+    "LF8023", _W, "<{tag}> is left over from a xacro, and kept as raw XML; write what it stands for, or delete it"
+)
+
 # What no reader of URDF takes
 NO_NUMBERS = Code("LF8060", _E, "'{name}' of <{tag}> takes {expected}, found '{text}'{way_out}")
 LACKS_PART = Code("LF8065", _E, "this <{tag}> has no {what}, so readers of URDF refuse it")
@@ -33,10 +37,7 @@ NOTHING_EXPANDED = Code(
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
 
 MATERIAL_REPEATED = Code(
-    "LF8022",
-    _W,
-    "material '{name}' is declared again with the same content, and urdfdom refuses a robot with two of a name; the "
-    "spec has it once",
+    "LF8022", _W, "material '{name}' is declared again with the same content; the spec has it once"
 )
 
 ENDS_KEPT_RAW = Code(
