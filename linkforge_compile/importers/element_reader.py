@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from linkforge_compile.diagnostics import Note, Severity
-from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.raw_xml import raw_with_prefix, tidy, without_instructions
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, values_in
 from linkforge_compile.source import Span
@@ -30,6 +30,13 @@ Named = dict[str, tuple[XmlAttribute, YamlNode]]
 
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 """The words of XML Schema for true and false."""
+
+_NO_INERTIAL, _NO_SHAPE = "reads no <inertial>", "reads no shape"
+_WITHOUT_A_NUMBER = {
+    **dict.fromkeys(("mass", "inertia"), _NO_INERTIAL),
+    **dict.fromkeys(("sphere", "cylinder", "capsule"), _NO_SHAPE),
+}
+"""What urdfdom does after a number that it cannot read, by the tag of its element."""
 
 _MAX_TEXT = 40
 """Characters shown of a text that is left out."""
@@ -95,6 +102,11 @@ class ElementReader:
             return None
         attribute = self._attributes.pop(name)
         node = self.draft.number(attribute.value, attribute, unit)
+        if self.draft.is_urdf and node is not None and attribute.value[-1:].isspace():
+            effect = _WITHOUT_A_NUMBER.get(self.element.tag, "refuses the robot")
+            self.draft.diagnostics.append(
+                ENDS_IN_A_BLANK.at(attribute.span, name=name, tag=self.element.tag, effect=effect)
+            )
         if node is None:
             raise CannotRepresentError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
         return None if default is not None and float(attribute.value) == default else node

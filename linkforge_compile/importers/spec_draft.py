@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import Span
@@ -60,7 +60,8 @@ class SpecDraft:
 
     `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
-    error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML.
+    error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
+    urdfdom reads the document.
 
     `keys` has the key or list item of each element, `bodies` the node below it, `raw` the elements that are kept raw,
     `diagnostics` the reports of the import. `size` is the number of values so far, counting keys.
@@ -73,11 +74,13 @@ class SpecDraft:
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,
         at_fault: Collection[XmlElement] = (),
+        is_urdf: bool = False,
     ) -> None:
         self._max_size = Budget(times=_TIMES_DRAFTED).left(Limit.VALUES)
         self.size = 0
         self.refused = refused
         self.at_fault = at_fault
+        self.is_urdf = is_urdf
         self.has_quaternions = has_quaternions
         self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}
@@ -89,10 +92,10 @@ class SpecDraft:
         self._numbers: dict[tuple[str, Dimension | None], tuple[str, ScalarValue] | None] = {}
 
     def report(self, sink: Diagnostics) -> None:
-        """Report the diagnostics; those about raw XML with the same reason are one, at the first place."""
+        """Report the diagnostics; those that are equal about raw XML or blanks are one, at the first place."""
         groups: dict[str, list[Diagnostic]] = {}
         for number, one in enumerate(self.diagnostics):
-            key = f"{one.severity} {one.message}" if one.code is KEPT_RAW else str(number)
+            key = f"{one.severity} {one.message}" if one.code in {KEPT_RAW, ENDS_IN_A_BLANK} else str(number)
             groups.setdefault(key, []).append(one)
         for first, *others in groups.values():
             more = [Note(f"and {len(others)} more like this, the next one here", others[0].span)] if others else []

@@ -68,7 +68,9 @@ def _require_few_parts(root: XmlElement) -> None:
 
 
 def _draft(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
-    draft = SpecDraft(has_quaternions=_has_quaternions(root), shapes=_shape_names(root), at_fault=at_fault)
+    draft = SpecDraft(
+        has_quaternions=_has_quaternions(root), shapes=_shape_names(root), at_fault=at_fault, is_urdf=True
+    )
     tree = _read_robot(ElementReader(draft, root))
     draft.bodies[root] = tree
     return draft, tree

@@ -40,6 +40,8 @@ MATERIAL_REPEATED = Code(
     "LF8022", _W, "material '{name}' is declared again with the same content; the spec has it once"
 )
 
+ENDS_IN_A_BLANK = Code("LF8024", _W, "'{name}' of <{tag}> ends in a blank, so urdfdom {effect}; delete the blank")
+
 ENDS_KEPT_RAW = Code(
     "LF8090", _W, "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes"
 )
@@ -97,6 +99,9 @@ OTHER_ROBOT = Code(
     _W,
     "this SRDF names the robot '{name}', the URDF '{robot}', and a spec has one name; it becomes '{robot}'",
 )
+NEGATIVE_LIMIT = Code(
+    "LF8104", _W, "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have"
+)
 DOES_NOT_COME_OUT = Code("LF8190", _W, "the spec does not reproduce {what}")
 BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, but the spec compiles to '{now}'")
 SHAPES_REORDERED = Code(
@@ -118,6 +123,7 @@ LOSSES = frozenset(
         TEXT_LEFT_OUT,
         INSTRUCTION_LEFT_OUT,
         OTHER_ROBOT,
+        NEGATIVE_LIMIT,
         DOES_NOT_COME_OUT,
         BECOMES_OTHER,
         COMES_IN_ADDITION,
