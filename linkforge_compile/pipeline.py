@@ -75,9 +75,10 @@ def compile_file(
 ) -> Compilation:
     """Compile a spec file; a required parameter without a value is an error.
 
-    `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
-    is the simulator, Gazebo Sim or Classic, whose limits are reported; give it to `render_urdf` as well. `output` is
-    the folder of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
+    `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults, or several
+    of them, `a+b`, of which the last one decides. `gazebo` is the simulator, Gazebo Sim or Classic, whose limits are
+    reported; give it to `render_urdf` as well. `output` is the folder of the URDF, from which relative paths of meshes
+    must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 

@@ -54,7 +54,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 
 @dataclass(frozen=True)
 class CompileState:
-    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
+    """What all uses in one compile share; `variant` selects one of the compiled file, or several: `a+b`."""
 
     compiled: SpecFile
     loader: Loader

@@ -1,6 +1,5 @@
 """`linkforge compile --check`, and the hooks of pre-commit that call it."""
 
-import re
 from pathlib import Path
 
 import pytest
@@ -126,9 +125,6 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 0
     (arm / "urdf" / "arm.urdf").write_text("<robot/>")
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 1
-    for name in ("urdf/arm.urdf", "arm.robot.yml", "urdf/arm.xml", "urdf/arm.urdf.map.json", "meshes/HAND.STL"):
-        assert re.search(uptodate_hook["files"], name), name
-    assert not re.search(uptodate_hook["files"], "package.json")
 
 
 def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pytest.CaptureFixture[str]):
@@ -142,7 +138,5 @@ def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pyt
     assert main(words) == 0
     assert "checked 2 specs" in capfd.readouterr().err
     module.write_text("linkforge: 1\nname: hand\nlinks: {palm: {inertial: {mass: -1}}}\n")
-    assert re.search(hook["files"], "parts/hand.yaml")
-    assert hook["pass_filenames"] is False
     assert main(words) == 1
     assert "parts/hand.yaml:3" in capfd.readouterr().err

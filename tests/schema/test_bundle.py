@@ -88,9 +88,9 @@ def test_what_holds_maps_may_be_left_empty_within_sections_too():
     assert reported(links={"base": empty}, joints={"weld": joint}, semantic={"groups": None}, include=None) == []
 
 
-def test_a_scalar_and_the_items_of_a_list_may_not_be_left_empty():
-    assert reported(description=None) == [["description"]]
-    assert reported(links={"base": {"inertial": {"mass": None}}}) == [["links", "base", "inertial", "mass"]]
+def test_a_required_scalar_and_the_items_of_a_list_may_not_be_left_empty():
+    assert reported(linkforge=None) == [["linkforge"]]
+    assert reported(joints={"weld": {"parent": None}}) == [["joints", "weld", "parent"]]
     assert reported(include=[None]) == [["include", 0]]
 
 
