@@ -52,8 +52,9 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
         return None
     leftovers = _elements_of_xacro(root)
-    if (definition := _definition_in(leftovers)) and root.get("xmlns:xacro") and not moved:
-        # A file like this is expanded; a text has no folder, and no name that says so.
+    is_declared = root.get("xmlns:xacro") is not None or file.path is None
+    if (definition := _definition_in(leftovers)) and is_declared and not moved:
+        # A URDF or SRDF like this is expanded; a text has no folder, and another file no name that says so.
         name = posixpath.basename(file.name).removesuffix(".xml") if file.path else "NAME.urdf"
         sink.report(STILL_XACRO.at(definition.span, tag=definition.tag, name=f"{name}.xacro"))
         return None

@@ -61,7 +61,7 @@ class SpecDraft:
     `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
     error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
-    urdfdom reads the document.
+    urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has.
 
     `keys` has the key or list item of each element, `bodies` the node below it, `raw` the elements that are kept raw,
     `diagnostics` the reports of the import. `size` is the number of values so far, counting keys.
@@ -75,12 +75,14 @@ class SpecDraft:
         shapes: Shapes = NO_SHAPES,
         at_fault: Collection[XmlElement] = (),
         is_urdf: bool = False,
+        renamed: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._max_size = Budget(times=_TIMES_DRAFTED).left(Limit.VALUES)
         self.size = 0
         self.refused = refused
         self.at_fault = at_fault
         self.is_urdf = is_urdf
+        self.renamed = renamed
         self.has_quaternions = has_quaternions
         self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}

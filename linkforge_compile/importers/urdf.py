@@ -14,6 +14,7 @@ from linkforge_compile.importers.link import Palette, read_joint, read_link
 from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.raw_xml import Shapes
 from linkforge_compile.importers.refused import find_refusals
+from linkforge_compile.importers.renaming import Renamed, rename_parts
 from linkforge_compile.importers.ros2_control import read_ros2_control, read_transmission
 from linkforge_compile.importers.spec_draft import SpecDraft, values_in
 from linkforge_compile.limits import Budget, Limit
@@ -49,12 +50,14 @@ def read_urdf(
         sink.report(SRDF_FOR_URDF.at(part.span, tag=part.tag))
         return None
     _require_few_parts(root)
-    draft, tree = _draft(root)
+    document, renamed = rename_parts(document, sink)
+    root = document.root
+    draft, tree = _draft(root, renamed)
     # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
     has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
     if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
         sink.report_all(refusal.diagnostic for refusal in refusals)
-        draft, tree = _draft(root, frozenset(element for refusal in refusals for element in refusal.path))
+        draft, tree = _draft(root, renamed, frozenset(element for refusal in refusals for element in refusal.path))
     draft.report(sink)
     return Imported(tree, place_comments(document, draft, tree), (document,))
 
@@ -67,9 +70,13 @@ def _require_few_parts(root: XmlElement) -> None:
         raise budget.beyond(Limit.ENTRIES, parts[most].span)
 
 
-def _draft(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
+def _draft(root: XmlElement, renamed: Renamed, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
     draft = SpecDraft(
-        has_quaternions=_has_quaternions(root), shapes=_shape_names(root), at_fault=at_fault, is_urdf=True
+        has_quaternions=_has_quaternions(root),
+        shapes=_shape_names(root),
+        at_fault=at_fault,
+        is_urdf=True,
+        renamed=renamed,
     )
     tree = _read_robot(ElementReader(draft, root))
     draft.bodies[root] = tree

@@ -102,6 +102,12 @@ OTHER_ROBOT = Code(
 NEGATIVE_LIMIT = Code(
     "LF8104", _W, "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have"
 )
+NAME_REPLACED = Code(
+    "LF8105",
+    _W,
+    "'{name}' has characters that names in TF, topics and specs cannot have, and becomes '{new}'; rename it in the "
+    "programs that use it",
+)
 DOES_NOT_COME_OUT = Code("LF8190", _W, "the spec does not reproduce {what}")
 BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, but the spec compiles to '{now}'")
 SHAPES_REORDERED = Code(
@@ -124,6 +130,7 @@ LOSSES = frozenset(
         INSTRUCTION_LEFT_OUT,
         OTHER_ROBOT,
         NEGATIVE_LIMIT,
+        NAME_REPLACED,
         DOES_NOT_COME_OUT,
         BECOMES_OTHER,
         COMES_IN_ADDITION,
