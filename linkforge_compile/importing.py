@@ -154,7 +154,8 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     declared = semantic.arguments if semantic else None if srdf else frozenset()
     if urdf.text is None and is_xacro(urdf.path):
-        found = _read_xacro(urdf.path, arguments, declared, loader, sink)
+        folder = settings.output or urdf.path.parent
+        found = _read_xacro(urdf.path, arguments, declared, loader, sink, spec_folder=folder)
     else:
         found = _read_urdf(urdf, arguments, declared, loader, sink)
     if found is None or (srdf and semantic is None):
@@ -242,11 +243,13 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Load
     return (file, robot) if file and robot else None
 
 
-def _read_xacro(xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_xacro(
+    xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics, *, spec_folder: Path
+) -> _Read | None:
     from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
-    expanded = read_xacro(use, loader, sink, keeps_refused=True)
+    expanded = read_xacro(use, loader, sink, keeps_refused=True, spec_folder=spec_folder)
     return (expanded.file, expanded.imported) if expanded else None
 
 

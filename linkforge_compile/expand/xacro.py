@@ -34,6 +34,7 @@ from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
+    from linkforge_compile.importers.package_paths import PackagePaths
     from linkforge_compile.importers.xacro import Expanded, Failed, Place
     from linkforge_compile.source.xml_tree import XmlElement
 
@@ -52,6 +53,8 @@ class Expansion(NamedTuple):
     moved: Move
     files: tuple[SourceFile, ...]
     arguments: frozenset[str]
+    packages: Mapping[str, Path]
+    """The folders that `$(find ...)` gave, by package."""
 
 
 class XacroRobot(NamedTuple):
@@ -72,17 +75,40 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     return SpecFile(robot.file, tree, folder, use.package, included, use.packages or {})
 
 
-def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refused: bool = False) -> XacroRobot | None:
-    """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error."""
+def read_xacro(
+    use: XacroUse,
+    loader: Loader,
+    sink: Diagnostics,
+    *,
+    keeps_refused: bool = False,
+    spec_folder: Path | None = None,
+) -> XacroRobot | None:
+    """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error.
+
+    For a spec in `spec_folder`, paths in packages become expressions; None for no spec.
+    """
+    from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS
     from linkforge_compile.importers.urdf import read_urdf
 
     expansion = expand_xacro(use, loader, sink)
     if expansion is None:
         return None
     inside = with_use_trace(sink, (use.used.where,))
-    imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused)
+    paths = _package_paths(expansion, spec_folder, loader) if spec_folder else NO_PACKAGE_PATHS
+    imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused, package_paths=paths)
     main, *others = expansion.files
     return XacroRobot(imported, main, tuple(others)) if imported else None
+
+
+def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> PackagePaths:
+    from linkforge_compile.importers.package_paths import FoundPackage, PackagePaths
+
+    return PackagePaths(
+        {
+            str(folder): FoundPackage(name, find_package(name, {}, spec_folder, loader.roots) == folder)
+            for name, folder in expansion.packages.items()
+        }
+    )
 
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
@@ -110,7 +136,7 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
     files = (main, *written.files, expanded)
     moved = partial(moved_back, find=written.element)
-    return Expansion(expanded, moved, files, frozenset((*result.arguments, *result.wanted)))
+    return Expansion(expanded, moved, files, frozenset((*result.arguments, *result.wanted)), answers.packages)
 
 
 def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
@@ -163,6 +189,7 @@ class XacroAnswers:
 
     def __init__(self, use: XacroUse, loader: Loader) -> None:
         self._use, self._loader = use, loader
+        self.packages: dict[str, Path] = {}
         self.missing_packages: list[str] = []
         self.refused: list[Path] = []
         """Files outside of the roots."""
@@ -172,6 +199,8 @@ class XacroAnswers:
         folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
         if folder is None:
             self.missing_packages.append(name)
+        else:
+            self.packages[name] = folder
         return folder
 
     def may_read(self, path: Path) -> bool:

@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics.codes.importing import MATERIAL_REPEATED, SRD
 from linkforge_compile.importers.document import Imported, Move, place_comments, read_document
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
 from linkforge_compile.importers.link import Palette, read_joint, read_link
+from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.raw_xml import Shapes
 from linkforge_compile.importers.refused import find_refusals
@@ -34,13 +35,19 @@ _FRAME_NAME = re.compile(r"[\w./-]+")
 
 
 def read_urdf(
-    file: SourceFile, sink: Diagnostics, moved: Move | None = None, *, keeps_refused: bool = False
+    file: SourceFile,
+    sink: Diagnostics,
+    moved: Move | None = None,
+    *,
+    keeps_refused: bool = False,
+    package_paths: PackagePaths = NO_PACKAGE_PATHS,
 ) -> Imported | None:
     """Read a URDF document; None where it is none, which is reported.
 
     The tree has all of its content, in the language's words or as raw XML; what is left out is reported. `moved` gives
     elements the places in which they were written. What readers of URDF refuse is reported as an error and at fault in
-    the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec.
+    the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec. `package_paths` are
+    written as expressions.
     """
     document = read_document(file, sink, moved)
     if document is None:
@@ -52,12 +59,14 @@ def read_urdf(
     _require_few_parts(root)
     document, renamed = rename_parts(document, sink)
     root = document.root
-    draft, tree = _draft(root, renamed)
+    draft, tree = _draft(root, renamed, package_paths)
     # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
     has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
     if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
         sink.report_all(refusal.diagnostic for refusal in refusals)
-        draft, tree = _draft(root, renamed, frozenset(element for refusal in refusals for element in refusal.path))
+        draft, tree = _draft(
+            root, renamed, package_paths, frozenset(element for refusal in refusals for element in refusal.path)
+        )
     draft.report(sink)
     return Imported(tree, place_comments(document, draft, tree), (document,))
 
@@ -70,13 +79,16 @@ def _require_few_parts(root: XmlElement) -> None:
         raise budget.beyond(Limit.ENTRIES, parts[most].span)
 
 
-def _draft(root: XmlElement, renamed: Renamed, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
+def _draft(
+    root: XmlElement, renamed: Renamed, package_paths: PackagePaths, at_fault: Collection[XmlElement] = ()
+) -> tuple[SpecDraft, YamlMap]:
     draft = SpecDraft(
         has_quaternions=_has_quaternions(root),
         shapes=_shape_names(root),
         at_fault=at_fault,
         is_urdf=True,
         renamed=renamed,
+        package_paths=package_paths,
     )
     tree = _read_robot(ElementReader(draft, root))
     draft.bodies[root] = tree

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile import compile_file, import_urdf, render_srdf
+from linkforge_compile import compile_file, import_urdf, render_srdf, render_urdf
 from linkforge_compile.pipeline import parameters_of
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -178,3 +178,37 @@ def test_a_urdf_that_is_a_xacro_is_expanded(tmp_path: Path, name: str):
     assert "sphere: 2" in (import_urdf(tmp_path / name).text or "")
     for file in (tmp_path / name, spec):
         assert compile_file(file).result().links[0].visuals[0].geometry.radius == 2
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    pytest.importorskip("xacro")
+    (tmp_path / "pkg").mkdir()
+    (tmp_path / "pkg/package.xml").write_text('<package format="3"><name>pkg</name></package>', "utf-8")
+    (tmp_path / "pkg/r.urdf.xacro").write_text(
+        f"""{HEAD} name="r"><link name="a"><visual><geometry>
+        <mesh filename="file://$(find pkg)/a.stl"/></geometry></visual></link>
+        <gazebo><plugin name="p" filename="p.so"><file>$(find pkg)/c.yaml</file></plugin></gazebo>
+        <raw file="$(find pkg)/d.yaml"/></robot>""",
+        "utf-8",
+    )
+    return tmp_path / "pkg"
+
+
+def test_a_path_that_find_made_is_an_expression(package: Path):
+    read = import_urdf(package / "r.urdf.xacro", output=package)
+    assert read.text is not None
+    assert str(package) not in read.text
+    for file in ("a.stl", "c.yaml", "d.yaml"):
+        assert f"$(path('package://pkg/{file}'))" in read.text
+    (package / "r.robot.yaml").write_text(read.text, "utf-8")
+    urdf = render_urdf(compile_file(package / "r.robot.yaml").result())
+    assert urdf.count(f"{package}/") == 3
+    assert f'"file://{package}/a.stl"' in urdf
+
+
+def test_a_path_of_a_package_that_the_spec_cannot_find_is_reported(package: Path, tmp_path: Path):
+    read = import_urdf(package / "r.urdf.xacro", output=tmp_path / "far")
+    assert read.text is not None
+    assert f"file: {package}/c.yaml" in read.text
+    assert [(one.code.id, one.span.line) for one in read.diagnostics if one.span] == [("LF8025", 3)]
