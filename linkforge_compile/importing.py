@@ -17,11 +17,12 @@ from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
+from linkforge_compile.importers.origin import Origin, digest_of
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
 from linkforge_compile.pipeline import Checked, Packages, Parameters, Settings, check_alone, compile_source
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlMap, read
+from linkforge_compile.syntax import YamlMap, YamlScalar, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
@@ -39,11 +40,13 @@ _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
 class Import:
     """The result of an import: the text of a spec, and the diagnostics.
 
-    `text` is None if the file is no robot of its format, or does not accept the arguments.
+    `text` is None if the file is no robot of its format, or does not accept the arguments. `origin` is what it was
+    imported from; None for a text that is no file.
     """
 
     text: str | None
     diagnostics: tuple[Diagnostic, ...]
+    origin: Origin | None = None
 
     @property
     def has_errors(self) -> bool:
@@ -135,22 +138,35 @@ def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
 @suggestion_budget()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
+    loader = settings.loader(urdf.path)
     try:
-        text = _imported_text(urdf, srdf, settings, sink)
+        arguments = settings.arguments(loader, sink)
+        text = _imported_text(urdf, srdf, settings, arguments, loader=loader, sink=sink)
     except BeyondLimitError as beyond:
         sink.abort(beyond)
         text = None
-    return Import(text, sink.sorted())
+    if text is None or urdf.text is not None or not urdf.path.is_file():
+        return Import(text, sink.sorted())
+    return Import(text, sink.sorted(), _origin(urdf.path, srdf, arguments, loader))
 
 
-def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
+def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, loader: Loader) -> Origin:
+    values = ((name, entry.value) for name, entry in arguments.entries.items())
+    assignments = tuple(f"{name}:={value.text}" for name, value in values if isinstance(value, YamlScalar))
+    # Not the files again: one may be a pipe.
+    texts = {source.path: source.text.encode() for source in loader.sources if source.path}
+    others = (file.read_bytes() for file in loader.files if file not in texts and file.is_file())
+    return Origin(urdf, srdf, assignments, digest_of((*texts.values(), *others)))
+
+
+def _imported_text(
+    urdf: _Urdf, srdf: Path | None, settings: Settings, arguments: Arguments, *, loader: Loader, sink: Diagnostics
+) -> str | None:
     from linkforge_compile.formats.limits import check_raw_names, check_written_twice
     from linkforge_compile.formats.parts import doubtful_parts_of_urdf
     from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
-    loader = settings.loader(urdf.path)
-    arguments = settings.arguments(loader, sink)
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     declared = semantic.arguments if semantic else None if srdf else frozenset()
     if urdf.text is None and is_xacro(urdf.path):
