@@ -11,7 +11,7 @@ HAND = PlanningGroup("hand", links=("left_hand",))
 def test_groups_that_contain_one_another_are_reported_once():
     groups = (LEFT, PlanningGroup("a", subgroups=("left", "b")), PlanningGroup("b", subgroups=("a",)))
     assert messages_of(two_arms(groups=groups)) == [
-        "LF5601 planning group 'b': planning groups contain each other in a circle: a → b → a"
+        "LF5601 planning group 'b': planning groups contain each other in a cycle: a → b → a"
     ]
 
 

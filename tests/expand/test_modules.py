@@ -195,7 +195,7 @@ def test_the_circle_is_reported_with_each_of_its_lines(tmp_path, sink):
     compiled(tmp_path, sink)
     (told,) = sink
     path = "robot.robot.yaml → parts/a.robot.yaml → parts/b.robot.yaml → robot.robot.yaml"
-    assert told.message == f"modules use each other in a circle: {path}"
+    assert told.message == f"modules use each other in a cycle: {path}"
     assert told.span.text == "../robot.robot.yaml"
     assert [note.span.text for note in told.notes[:2]] == ["parts/a.robot.yaml", "b.robot.yaml"]
 
