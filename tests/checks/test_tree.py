@@ -71,7 +71,7 @@ def test_two_joints_back_to_one_link_are_two_circles():
     ],
 )
 def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
-    """Of two trees the larger one is the arm, whose joint to its base was lost."""
+    """Of two trees the larger one is the arm, whose joint to its base is missing."""
     base = "world" if root == "world" else "mount"
     joints = (fixed("a", base, "bracket"), fixed("b", "arm", "elbow"), fixed("c", "elbow", "hand"))
     (diagnostic,) = check(robot(links, *joints), UnresolvedNames())

@@ -1,4 +1,4 @@
-"""`linkforge init`, run as a program: what it writes works, and nothing of the user's is lost."""
+"""`linkforge init`, run as a program: its output works, and no file of the user is changed."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Each kind of difference, as it is told."""
+"""Each kind of difference and its text."""
 
 # ruff: noqa: E501 a robot and a change take a line each
 

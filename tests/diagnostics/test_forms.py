@@ -201,7 +201,7 @@ RUN = closed(
     results={"type": "array", "items": RESULT},
 )
 SARIF = closed(("version", "runs"), version={"const": "2.1.0"}, runs=some(RUN), **{"$schema": {"type": "string"}})
-"""What SARIF 2.1.0 says of the objects and keys that are written here, each with its kind; no others."""
+"""The objects and keys of SARIF 2.1.0 that are written here, each with its type; no others."""
 
 
 def test_sarif_is_as_the_standard_has_it():

@@ -11,7 +11,7 @@ from tests.expand.assembling import plain
 
 
 def write(folder, files):
-    """Write files as they are but for the first line, which says `linkforge`."""
+    """Write files with a first line `linkforge: 1`."""
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(f"linkforge: 1\n{text}")

@@ -32,7 +32,7 @@ def imported(folder: Path, srdf: str, urdf: str = f'<robot name="r">{TREE}</robo
 
 @pytest.fixture
 def read(tmp_path: Path):
-    """Import an SRDF of the robot above, of which nothing may be told; returns what `semantic` holds."""
+    """Import an SRDF of the robot above without diagnostics; return the contents of `semantic`."""
 
     def read_srdf(text: str) -> str:
         whole = imported(tmp_path, f'<robot name="r">{text}</robot>')

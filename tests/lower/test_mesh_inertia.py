@@ -1,4 +1,4 @@
-"""Inertia of meshes from specs: found as the spec says, read once, weighed with the other shapes, or told why not."""
+"""Inertia of meshes from specs: found by the spec's packages, read once, added to other shapes, or reported."""
 
 import os
 import sys
