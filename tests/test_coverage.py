@@ -39,7 +39,7 @@ SHAPES = frozenset({"box", "cylinder", "sphere", "capsule", "mesh"})
 
 
 class Said(NamedTuple):
-    """How the language represents a class: the titles of its objects, its renamed fields, and those of one side only."""
+    """How the language has a class: the titles of its objects, its renamed fields, and those of one side only."""
 
     titles: tuple[str, ...]
     renamed: Mapping[str, str | frozenset[str]] = FrozenMap()
