@@ -35,7 +35,7 @@ EVERY = (
 )
 
 
-def test_json_says_all_and_fits_its_schema():
+def test_json_is_complete_and_fits_its_schema():
     whole = json.loads(render_json(EVERY))
     schema = json.loads((ROOT / "docs" / "diagnostics.schema.json").read_text("utf-8"))
     jsonschema.Draft7Validator.check_schema(schema)

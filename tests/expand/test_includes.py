@@ -69,7 +69,7 @@ def test_paths_are_relative_to_the_file_that_wrote_them(tmp_path):
     assert 'filename="skins/a.png"' in urdf
 
 
-def test_a_fault_in_an_included_file_says_where_it_was_included(tmp_path):
+def test_a_fault_in_an_included_file_has_a_note_of_the_include(tmp_path):
     write(
         tmp_path,
         {

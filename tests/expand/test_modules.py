@@ -82,7 +82,7 @@ def test_an_instance_has_its_name_prefix_entry_and_include_stack(tmp_path, sink)
     assert hand.entry.trail == left.include_stack
 
 
-def test_a_fault_of_a_module_says_who_used_it(tmp_path, sink):
+def test_a_fault_of_a_module_has_a_note_of_its_use(tmp_path, sink):
     write(
         tmp_path,
         {

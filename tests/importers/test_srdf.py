@@ -217,7 +217,7 @@ def test_comments_around_both_files_are_kept(tmp_path: Path):
     assert text.endswith("\n# end of URDF\n# end of SRDF\n")
 
 
-def test_an_srdf_that_says_nothing_is_one(tmp_path: Path):
+def test_an_empty_srdf_is_imported(tmp_path: Path):
     whole = imported(tmp_path, '<robot name="r"/>')
     assert whole.text is not None
     assert compile_text(whole.text).result().has_semantic
