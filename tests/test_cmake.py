@@ -82,7 +82,7 @@ class Workspace:
         return {text.split()[0] for text in compiled}
 
     def make_in_vain(self) -> str:
-        """Build what has errors, and return what was said."""
+        """Build a spec with errors, and return the output."""
         run = self._run(self._cmake, "--build", self.build)
         assert run.returncode != 0
         return run.stdout + run.stderr

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
+from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CYCLE, USE_TOO_DEEP
 from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
 from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
@@ -230,7 +230,7 @@ def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
         Note(f"'{name}' is used here", use.bound.use)
         for name, use in zip(path[1:-1], reversed(chain[1:-1]), strict=True)
     ]
-    return USE_CIRCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)
+    return USE_CYCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)
 
 
 def references_left(

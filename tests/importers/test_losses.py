@@ -1,4 +1,4 @@
-"""Nothing of a robot is lost in silence: an import compares what its spec compiles to with what came in."""
+"""No loss is silent: an import compares what its spec compiles to with the file."""
 
 import random
 import runpy
@@ -122,7 +122,7 @@ def test_a_color_changed_by_raw_xml_is_reported():
 
 
 def test_a_zero_rpy_with_a_quaternion_is_a_loss():
-    """urdfdom refuses an origin that says both."""
+    """urdfdom refuses an origin that has both."""
     origin = '<origin xyz="0 0 0.5"/>'
     turned = ROBOT.replace(origin, '<origin xyz="0 0 0.5" quat_xyzw="0 0 0 1"/>')
     doubled = ROBOT.replace(origin, '<origin xyz="0 0 0.5" rpy="0 0 0" quat_xyzw="0 0 0 1"/>')

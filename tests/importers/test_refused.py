@@ -1,4 +1,4 @@
-"""What readers of URDF refuse is an error where a URDF is compiled: urdfdom itself says which that is."""
+"""What readers of URDF refuse is an error when a URDF is compiled; urdfdom itself decides what that is."""
 
 import pytest
 

@@ -18,7 +18,7 @@ from tests.consumers import check_urdf
 
 @pytest.fixture
 def read(tmp_path: Path):
-    """Import a URDF that is written in a test, whose robot is named `r`; nothing may be told of it."""
+    """Import a URDF that is written in a test, whose robot is named `r`, without diagnostics."""
 
     def read_urdf(text: str) -> str:
         imported = imported_from(text, tmp_path)
@@ -48,7 +48,7 @@ ENDS = '<parent link="a"/><child link="b"/>'
 
 
 def joint(read, text: str, kind: str = "revolute") -> str:
-    """Return what a joint between two links says, without its type and its ends."""
+    """Return the contents of a joint between two links, without its type and its ends."""
     lines = read(f'{BOTH}<joint name="j" type="{kind}">{ENDS}{text}</joint>').partition("joints:\n")[2]
     body = dedent(lines.partition("\n")[2]) if lines.startswith("  j:\n") else lines.strip().removeprefix("j: ")
     return body.replace(f"type: {kind}, parent: a, child: b", "").replace(f"type: {kind}\nparent: a\nchild: b\n", "")
