@@ -274,11 +274,9 @@ def _read_text(stream: BinaryIO, name: str) -> str:
     content = stream.read(MAX_FILE_BYTES + 1)
     if len(content) > MAX_FILE_BYTES:
         raise UsageError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MiB")
-    from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
+    from linkforge_compile.source.characters import UnreadableError, text_of
 
     try:
-        return xml_text(content) if begins_xml(content) else content.decode("utf-8")
-    except EncodingError as error:
+        return text_of(content)
+    except UnreadableError as error:
         raise UsageError(f"{name} cannot be read: {error}") from None
-    except UnicodeDecodeError as error:
-        raise UsageError(f"{name} is not UTF-8: {error.reason} at byte {error.start}") from None
