@@ -34,9 +34,9 @@ from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.spec_tree import is_computed
 from linkforge_compile.expand.uses import (
     COMPUTING,
-    XACRO,
     Instance,
     charge_entries,
+    is_xacro,
     mesh_base,
     mesh_finder,
     own_name,
@@ -44,7 +44,6 @@ from linkforge_compile.expand.uses import (
 )
 
 __all__ = [
-    "XACRO",
     "Arguments",
     "CliArgument",
     "ImportSite",
@@ -55,6 +54,7 @@ __all__ = [
     "arguments_from_text",
     "arguments_from_values",
     "expand",
+    "is_xacro",
 ]
 
 

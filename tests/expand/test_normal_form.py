@@ -1,4 +1,4 @@
-"""Short forms made long: each means what its long form says."""
+"""Short forms made long: each is equal to its long form."""
 
 import pytest
 
