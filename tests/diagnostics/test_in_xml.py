@@ -1,4 +1,4 @@
-"""Who checks a URDF, or uses one, is told what is wrong in the words of that file."""
+"""Mistakes in a URDF that is checked or used are reported in terms of URDF."""
 
 from linkforge_compile import compile_file
 from linkforge_compile.diagnostics.codes import REGISTER

@@ -1,4 +1,4 @@
-"""What expressions give: Python's numbers, quantities that keep their dimension, text where they stand in text."""
+"""Values of expressions: Python's numbers, quantities that keep their dimension, text inside of text."""
 
 import math
 
