@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
 from linkforge_compile.expand.uses import charge_entries
@@ -140,7 +141,7 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     except BeyondLimitError as beyond:
         sink.abort(beyond)
         text = None
-    return Import(text, sink.sorted())
+    return Import(text, group_alike(sink.sorted()))
 
 
 def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:

@@ -232,10 +232,10 @@ def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
 def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The `effort` and `velocity` of a joint are above 0.
 
-    A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever the command.
-    Exporters of CAD programs write 0 for a missing value; write those of the motor. A joint without a motor
-    that others only push is `continuous` without `limits`, or has limits large enough. A joint that mimics another
-    is moved by it.
+    A limit of 0 is a limit: no motor of a simulator moves a joint without effort, and ros2_control commands no speed to
+    a joint without velocity. Drivers of position-controlled arms read neither, so that vendors leave `effort="0"`;
+    write the motor's, even a guess, before the robot is simulated. Reported once for all such joints. A joint that
+    mimics another is moved by it.
     """
     for joint in robot.joints:
         limits = joint.limits

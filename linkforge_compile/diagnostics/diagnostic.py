@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.source import SourceRef, Span
@@ -39,6 +39,14 @@ class Note:
         object.__setattr__(self, "message", _quotable(self.message))
 
 
+class OneOf(NamedTuple):
+    """What a diagnostic says together with others of its kind: the words around the names, and its own name."""
+
+    before: str
+    name: str
+    after: str
+
+
 @dataclass(frozen=True)
 class Diagnostic:
     """One fault; `message` is lower case, without full stop, with the user's own words in quotes."""
@@ -53,6 +61,8 @@ class Diagnostic:
     """How many more like it are omitted; a note counts them."""
     full_text_hash: int = 0
     """A hash of the message before it was shortened, 0 if it was not; it keeps two long messages distinct."""
+    one_of: OneOf | None = None
+    """Those with the same words around their names are reported as one."""
 
     @property
     def severity(self) -> Severity:
@@ -87,6 +97,12 @@ class Code:
     in_xml: str = ""
     ends_report: bool = False
     """Whether it says that the report is incomplete: it comes last and is always shown."""
+    named: str = ""
+    """The fact that is the name of the part at fault, if all parts of a robot with this fault are one cause."""
+    several: str = ""
+    """The sentence for several such parts, with `{names}`: many joints without power are one warning."""
+    several_in_xml: str = ""
+    """That sentence for a URDF, SRDF or xacro, empty if `several` suits them too."""
 
     @property
     def title(self) -> str:
@@ -114,10 +130,18 @@ class Code:
         """
         chain = provenance_of(where, *path, location=self.location) if where else None
         span = chain.span if chain else None
-        sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
+        is_in_xml = span is not None and span.file.is_xml
+        sentence = self.in_xml if self.in_xml and is_in_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
-        return Diagnostic(self, _quotable(whole), span, (*notes, *notes_of(chain)), full_text_hash=full_text_hash)
+        all_notes = (*notes, *notes_of(chain))
+        one_of = self._one_of(facts, is_in_xml=is_in_xml) if self.several else None
+        return Diagnostic(self, _quotable(whole), span, all_notes, full_text_hash=full_text_hash, one_of=one_of)
+
+    def _one_of(self, facts: dict[str, object], *, is_in_xml: bool) -> OneOf:
+        sentence = self.several_in_xml if self.several_in_xml and is_in_xml else self.several
+        before, after = (part.format(**facts) for part in sentence.split("{names}"))
+        return OneOf(before, str(facts[self.named]), after)
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

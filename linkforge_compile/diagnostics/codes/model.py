@@ -105,12 +105,28 @@ SEVERAL_ROOTS = Code(
 # LF55xx: how far joints go, and joints that follow others
 MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic each other in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
-NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0")
+NO_RANGE = Code(
+    "LF5503",
+    _W,
+    "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0",
+    named="joint",
+    several="joints {names} cannot move: their limits do not set {unsaid}, which URDF reads as 0",
+)
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
-    "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out"
+    "LF5505",
+    _W,
+    "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out",
+    named="joint",
+    several="joints {names} are continuous and turn beyond their {said}; make them revolute, or leave these out",
 )
-POWERLESS_JOINT = Code("LF5506", _W, "joint '{joint}' cannot be moved: its limit of {fields} is 0")
+POWERLESS_JOINT = Code(
+    "LF5506",
+    _W,
+    "joint '{joint}' cannot be driven: its limit of {fields} is 0",
+    named="joint",
+    several="joints {names} cannot be driven: their limit of {fields} is 0",
+)
 SOFT_LIMITS_CROSSED = Code(
     "LF5507", _W, "soft limits of joint '{joint}' are reversed, from {lower} to {upper}, so it cannot move"
 )

@@ -7,7 +7,14 @@ _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
 _VALUE = Location.VALUE
 
 # LF60xx: mass and inertia
-ZERO_INERTIA = Code("LF6001", _W, "link '{link}' has a mass of {mass} kg and an inertia of zero", _VALUE)
+ZERO_INERTIA = Code(
+    "LF6001",
+    _W,
+    "link '{link}' has a mass of {mass} kg and an inertia of zero",
+    _VALUE,
+    named="link",
+    several="links {names} have a mass and an inertia of zero",
+)
 INDEFINITE_INERTIA = Code(
     "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _VALUE
 )
@@ -94,6 +101,11 @@ BLOCK_OF_MERGED_JOINT = Code(
     "Gazebo merges the links of fixed joint '{joint}' and drops this; set `preserveFixedJoint: true` in it",
     in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; write "
     "<preserveFixedJoint>true</preserveFixedJoint> in it",
+    named="joint",
+    several="Gazebo merges the links of fixed joints {names} and drops what is set for these joints; set "
+    "`preserveFixedJoint: true` in each",
+    several_in_xml="Gazebo merges the links of fixed joints {names} and drops what is set for these joints; write "
+    "<preserveFixedJoint>true</preserveFixedJoint> in each",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
@@ -105,8 +117,20 @@ MERGED_LINK_NAMED = Code(
 )
 
 # LF605x: shapes to see and to touch
-UNTOUCHED_VISUALS = Code("LF6050", _N, "{links} a visual and no collision, so everything passes through")
-UNSEEN_COLLISIONS = Code("LF6051", _N, "{links} a collision and no visual, so what others touch is invisible")
+UNTOUCHED_VISUALS = Code(
+    "LF6050",
+    _N,
+    "link '{link}' has a visual and no collision, so everything passes through",
+    named="link",
+    several="links {names} have a visual and no collision, so everything passes through",
+)
+UNSEEN_COLLISIONS = Code(
+    "LF6051",
+    _N,
+    "link '{link}' has a collision and no visual, so what others touch is invisible",
+    named="link",
+    several="links {names} have a collision and no visual, so what others touch is invisible",
+)
 
 # LF61xx: ros2_control
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")
