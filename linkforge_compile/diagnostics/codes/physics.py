@@ -24,6 +24,16 @@ IMPOSSIBLE_INERTIA = Code(
     "no principal moment of inertia of link '{link}' may be above the sum of the others, found {moments}",
     _VALUE,
 )
+FLATTER_THAN_A_PLATE = Code(
+    "LF6007",
+    _N,
+    "the largest principal moment of inertia of link '{link}' exceeds the sum of the others by {excess} %; "
+    'MuJoCo refuses such a link, unless <compiler balanceinertia="true"/> is set',
+    _VALUE,
+    named="link",
+    several="the largest principal moments of inertia of links {names} exceed the sums of the others by up to 1 %; "
+    'MuJoCo refuses such links, unless <compiler balanceinertia="true"/> is set',
+)
 MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
 )
