@@ -40,11 +40,10 @@ class Note:
 
 
 class OneOf(NamedTuple):
-    """What a diagnostic says together with others of its kind: the words around the names, and its own name."""
+    """What a diagnostic has in common with others of its code: all but the name of the part at fault."""
 
-    before: str
     name: str
-    after: str
+    alike: tuple[object, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ class Diagnostic:
     full_text_hash: int = 0
     """A hash of the message before it was shortened, 0 if it was not; it keeps two long messages distinct."""
     one_of: OneOf | None = None
-    """Those with the same words around their names are reported as one."""
+    """Those of one file that are alike are reported as one."""
 
     @property
     def severity(self) -> Severity:
@@ -98,11 +97,9 @@ class Code:
     ends_report: bool = False
     """Whether it says that the report is incomplete: it comes last and is always shown."""
     named: str = ""
-    """The fact that is the name of the part at fault, if all parts of a robot with this fault are one cause."""
-    several: str = ""
-    """The sentence for several such parts, with `{names}`: many joints without power are one warning."""
-    several_in_xml: str = ""
-    """That sentence for a URDF, SRDF or xacro, empty if `several` suits them too."""
+    """The fact that names the part at fault, if many parts have this fault for one cause: they are grouped."""
+    alike: tuple[str, ...] = ()
+    """The facts that agree in a group."""
 
     @property
     def title(self) -> str:
@@ -130,18 +127,12 @@ class Code:
         """
         chain = provenance_of(where, *path, location=self.location) if where else None
         span = chain.span if chain else None
-        is_in_xml = span is not None and span.file.is_xml
-        sentence = self.in_xml if self.in_xml and is_in_xml else self.message
+        sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
         all_notes = (*notes, *notes_of(chain))
-        one_of = self._one_of(facts, is_in_xml=is_in_xml) if self.several else None
+        one_of = OneOf(str(facts[self.named]), tuple(facts[fact] for fact in self.alike)) if self.named else None
         return Diagnostic(self, _quotable(whole), span, all_notes, full_text_hash=full_text_hash, one_of=one_of)
-
-    def _one_of(self, facts: dict[str, object], *, is_in_xml: bool) -> OneOf:
-        sentence = self.several_in_xml if self.several_in_xml and is_in_xml else self.several
-        before, after = (part.format(**facts) for part in sentence.split("{names}"))
-        return OneOf(before, str(facts[self.named]), after)
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

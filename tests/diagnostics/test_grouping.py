@@ -19,19 +19,21 @@ def lines_of(diagnostic: Diagnostic) -> list[int]:
 def test_the_first_of_many_is_reported_with_the_names_and_places_of_others():
     (powerless,) = compile_text(arm(12)).diagnostics
     assert powerless.message == (
-        "joints 'j0', 'j1', 'j2', 'j3', 'j4', 'j5', 'j6' and 5 more cannot be driven: their limit of effort is 0"
+        "joint 'j0' cannot be driven: its limit of effort is 0; "
+        "the same for 'j1', 'j2', 'j3', 'j4', 'j5', 'j6', 'j7' and 4 more"
     )
     assert lines_of(powerless) == [5, 6, 7, 8]
+    assert powerless.notes[0].message == "joint 'j1' cannot be driven: its limit of effort is 0"
     assert powerless.notes[-1].message == "and 8 more"
 
 
 def test_a_comment_takes_its_part_out_of_the_group():
     (powerless,) = compile_text(arm(12, "  # linkforge: ignore LF5506")).diagnostics
-    assert powerless.message.startswith("joints 'j1', 'j2', ")
+    assert powerless.message.startswith("joint 'j1' cannot be driven: its limit of effort is 0; the same for 'j2', ")
     assert lines_of(powerless)[0] == 6
 
 
 def test_a_group_of_two_shows_both_places():
     (powerless,) = compile_text(arm(2)).diagnostics
-    assert powerless.message == "joints 'j0' and 'j1' cannot be driven: their limit of effort is 0"
+    assert powerless.message == "joint 'j0' cannot be driven: its limit of effort is 0; the same for 'j1'"
     assert lines_of(powerless) == [5, 6]

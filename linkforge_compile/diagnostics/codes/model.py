@@ -110,7 +110,7 @@ NO_RANGE = Code(
     _W,
     "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0",
     named="joint",
-    several="joints {names} cannot move: their limits do not set {unsaid}, which URDF reads as 0",
+    alike=("unsaid",),
 )
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
@@ -118,14 +118,14 @@ RANGE_OF_ENDLESS_JOINT = Code(
     _W,
     "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out",
     named="joint",
-    several="joints {names} are continuous and turn beyond their {said}; make them revolute, or leave these out",
+    alike=("said",),
 )
 POWERLESS_JOINT = Code(
     "LF5506",
     _W,
     "joint '{joint}' cannot be driven: its limit of {fields} is 0",
     named="joint",
-    several="joints {names} cannot be driven: their limit of {fields} is 0",
+    alike=("fields",),
 )
 SOFT_LIMITS_CROSSED = Code(
     "LF5507", _W, "soft limits of joint '{joint}' are reversed, from {lower} to {upper}, so it cannot move"
@@ -189,7 +189,12 @@ TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is set twice; re
 TAG_OF_TWO_BLOCKS = Code(
     "LF5780", _W, "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last"
 )
-UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
+UNPREFIXED_NAME = Code(
+    "LF5704",
+    _W,
+    "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}",
+    named="name",
+)
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )

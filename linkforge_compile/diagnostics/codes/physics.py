@@ -13,7 +13,6 @@ ZERO_INERTIA = Code(
     "link '{link}' has a mass of {mass} kg and an inertia of zero",
     _VALUE,
     named="link",
-    several="links {names} have a mass and an inertia of zero",
 )
 INDEFINITE_INERTIA = Code(
     "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _VALUE
@@ -31,8 +30,6 @@ FLATTER_THAN_A_PLATE = Code(
     'MuJoCo refuses such a link, unless <compiler balanceinertia="true"/> is set',
     _VALUE,
     named="link",
-    several="the largest principal moments of inertia of links {names} exceed the sums of the others by up to 1 %; "
-    'MuJoCo refuses such links, unless <compiler balanceinertia="true"/> is set',
 )
 MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
@@ -112,10 +109,6 @@ BLOCK_OF_MERGED_JOINT = Code(
     in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; write "
     "<preserveFixedJoint>true</preserveFixedJoint> in it",
     named="joint",
-    several="Gazebo merges the links of fixed joints {names} and drops what is set for these joints; set "
-    "`preserveFixedJoint: true` in each",
-    several_in_xml="Gazebo merges the links of fixed joints {names} and drops what is set for these joints; write "
-    "<preserveFixedJoint>true</preserveFixedJoint> in each",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
@@ -132,14 +125,12 @@ UNTOUCHED_VISUALS = Code(
     _N,
     "link '{link}' has a visual and no collision, so everything passes through",
     named="link",
-    several="links {names} have a visual and no collision, so everything passes through",
 )
 UNSEEN_COLLISIONS = Code(
     "LF6051",
     _N,
     "link '{link}' has a collision and no visual, so what others touch is invisible",
     named="link",
-    several="links {names} have a collision and no visual, so what others touch is invisible",
 )
 
 # LF61xx: ros2_control
