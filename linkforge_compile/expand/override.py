@@ -137,7 +137,9 @@ class _Patcher:
             return self.patch_map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape)
         if isinstance(new, YamlMap) and isinstance(old, YamlMap):
             return self.patch_map(old, new, shape)
-        if old is not None and _is_same(*(_comparable(one, field, shape) for one in (old, new))):
+        # A computed value may be another one in another variant.
+        constants = () if old is None or _is_computed(old) or _is_computed(patch) else (old, new)
+        if constants and _is_same(*(_comparable(one, field, shape) for one in constants)):
             self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
         return new
 
@@ -244,6 +246,15 @@ def _comparable(node: YamlNode, field: str, shape: Shape) -> YamlNode:
         case YamlList():
             return YamlList(tuple(_comparable(item, field, shape.item or shape) for item in node), node.span)
     return node
+
+
+def _is_computed(node: YamlNode) -> bool:
+    """Return whether a scalar, or an item of a list or value of a map, was written as an expression."""
+    if isinstance(node, YamlList):
+        return any(map(_is_computed, node.items))
+    if isinstance(node, YamlMap):
+        return any(_is_computed(entry.value) for entry in node)
+    return "$(" in (node.span.text or "")
 
 
 def _is_same(one: YamlNode, other: YamlNode) -> bool:
