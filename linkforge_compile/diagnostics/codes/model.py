@@ -108,17 +108,17 @@ MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{
 NO_RANGE = Code(
     "LF5503",
     _W,
-    "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0",
+    "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0",
     named="joint",
-    alike=("unsaid",),
+    alike=("missing",),
 )
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
     "LF5505",
     _W,
-    "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out",
+    "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out",
     named="joint",
-    alike=("said",),
+    alike=("limits",),
 )
 POWERLESS_JOINT = Code(
     "LF5506",
@@ -137,7 +137,7 @@ FAST_JOINT = Code(
     "LF5585",
     _N,
     "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant",
-    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{meant}' if {units} are meant",
+    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{expected}' if {units} are meant",
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
@@ -197,6 +197,9 @@ UNPREFIXED_NAME = Code(
 )
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
+)
+UNPREFIXED_HARDWARE = Code(
+    "LF5706", _W, "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}"
 )
 UNPREFIXED_TOPICS = Code(
     "LF5754",
