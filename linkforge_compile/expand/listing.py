@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.files import find_package
+from linkforge_compile.expand.files import folders_for_xacro
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
@@ -277,7 +277,7 @@ class _ArgumentSearch:
         if kind == "dirname":
             return str(user.parent.absolute())
         if kind == "find":
-            folder = find_package(name, self._loader.packages, user.parent, self._loader.roots)
+            folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
             if folder is None:
                 raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
             return str(folder)

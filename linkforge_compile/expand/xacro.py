@@ -24,9 +24,10 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.files import Package, as_typed, find_package, names_in, unknown_package
+from linkforge_compile.expand.files import Package, as_typed, names_in, unknown_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
+from linkforge_compile.expand.xacro_answers import XacroAnswers
 from linkforge_compile.expressions import Fault
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
@@ -96,8 +97,10 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     if os.environ.get(FORBIDDEN) or not loader.runs_xacro:
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
-    answers = XacroAnswers(use, loader)
+    answers = XacroAnswers(use.path, {**(use.packages or {}), **loader.packages}, loader.roots)
     result = run_xacro(use.path, arguments, answers)
+    while isinstance(result, Failed) and result.missing and answers.change_package(result.missing):
+        result = run_xacro(use.path, arguments, answers)
     written = WrittenElements(result, main, loader)
     inside = with_use_trace(sink, (use.used.where,))
     reporter = XacroReporter(use, written, loader, sink, inside)
@@ -156,30 +159,6 @@ class XacroUse:
     packages: Mapping[str, Path] | None = None
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
-
-
-class XacroAnswers:
-    """Answers the questions of the xacro process, and records what it may not have."""
-
-    def __init__(self, use: XacroUse, loader: Loader) -> None:
-        self._use, self._loader = use, loader
-        self.missing_packages: list[str] = []
-        self.refused: list[Path] = []
-        """Files outside of the roots."""
-
-    def find(self, name: str) -> Path | None:
-        declared = {**(self._use.packages or {}), **self._loader.packages}
-        folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
-        if folder is None:
-            self.missing_packages.append(name)
-        return folder
-
-    def may_read(self, path: Path) -> bool:
-        # The loader has read the file itself already.
-        is_allowed = path == self._use.path.absolute() or self._loader.roots.hold(path)
-        if not is_allowed:
-            self.refused.append(path)
-        return is_allowed
 
 
 class WrittenElements:
