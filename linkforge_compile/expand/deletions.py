@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.grouping import join_names
-from linkforge_compile.expand.override import SECTIONS, deletes, names_in_section
+from linkforge_compile.expand.override import SECTIONS, deletes
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode
 
 _SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
 
@@ -25,31 +25,25 @@ def deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[t
 def _deleted_in(
     before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]
 ) -> Iterator[tuple[str, Note]]:
-    for section in sections:
-        entries, left = before.get(section), names_in_section(after, section)
-        for entry in entries if isinstance(entries, YamlMap) else ():
-            if entry.name in left:
-                continue
-            child, parent = (
-                _text(entry.value, end) if section in ("joints", "mount") else None for end in ("child", "parent")
-            )
-            if where := _deletion(patch, section, entry.name):
-                way_out = _way_out(entry.name, after) if section == "links" else ""
-                yield entry.name, Note(f"'{entry.name}' is deleted by this override{way_out}", where)
-            elif child and (where := _deletion(patch, "links", child)):
-                yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
-            elif parent and (where := _deletion(patch, "links", parent)):
-                yield (
-                    entry.name,
-                    Note(f"to delete the root '{parent}' deletes '{entry.name}', the joint from it", where),
-                )
-            else:
-                yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
+    deleted = ((section, entry) for section in sections for entry in before.section(section).values())
+    for section, entry in deleted:
+        if entry.name in after.section(section):
+            continue
+        child, parent = _ends_of(entry) if section in ("joints", "mount") else (None, None)
+        if where := _deletion(patch, section, entry.name):
+            way_out = _way_out(entry.name, after) if section == "links" else ""
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override{way_out}", where)
+        elif child and (where := _deletion(patch, "links", child)):
+            yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
+        elif parent and (where := _deletion(patch, "links", parent)):
+            yield entry.name, Note(f"to delete the root '{parent}' deletes '{entry.name}', the joint from it", where)
+        else:
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
 
 
 def _way_out(link: str, after: YamlMap) -> str:
-    """Return what to write for the joints that hang on a deleted link, "" for none."""
-    names = [name for name, entry in names_in_section(after, "joints").items() if _text(entry.value, "parent") == link]
+    """Return what to write for the joints below a deleted link, "" for none."""
+    names = [name for name, joint in after.section("joints").items() if _ends_of(joint)[1] == link]
     if not names:
         return ""
     delete, reattach = (f"joints: {{{names[0]}: {change}}}" for change in ("null", "{parent: …}"))
@@ -71,60 +65,51 @@ def without_links(tree: YamlMap, links: set[str]) -> YamlMap:
     """
     if not links:
         return tree
-    sections = dict(tree.entries)
-    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
-    gone = set(links)
-    joint_to_root = _joint_to_new_root(tree, links)
+    gone, joint_to_root = set(links), _joint_to_new_root(tree, links)
     for name in ("joints", "mount"):
-        if isinstance(joints := tree.get(name), YamlMap):
-            kept = [
-                entry for entry in joints if _text(entry.value, "child") not in links and entry.name != joint_to_root
-            ]
-            gone |= joints.entries.keys() - {entry.name for entry in kept}
-            sections[name] = YamlEntry(sections[name].key, _map_of(kept, joints.span))
+        joints = tree.get(name)
+        if isinstance(joints, YamlMap):
+            kept = joints.only(lambda joint: _ends_of(joint)[0] not in links).without(joint_to_root)
+            gone |= joints.entries.keys() - kept.entries.keys()
+            tree = tree.with_value(name, kept)
+    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
     if isinstance(gazebo, YamlList | YamlMap):
         blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
-        left = tuple(block for block in blocks if _text(block, "reference") not in gone)
-        sections["gazebo"] = YamlEntry(sections["gazebo"].key, YamlList(left, gazebo.span))
-    if isinstance(semantic, YamlMap):
-        sections["semantic"] = YamlEntry(sections["semantic"].key, _semantic_without(semantic, links))
-    return YamlMap(sections, tree.span)
-
-
-def _joint_to_new_root(tree: YamlMap, deleted: set[str]) -> str | None:
-    """Return the fixed joint that alone joins deleted links to the others, if it leads down from the deleted ones."""
-    joints = [*names_in_section(tree, "joints").values(), *names_in_section(tree, "mount").values()]
-    ends = [(_text(joint.value, "parent"), _text(joint.value, "child")) for joint in joints]
-    between = [
-        joint for joint, (parent, child) in zip(joints, ends, strict=True) if (parent in deleted) != (child in deleted)
-    ]
-    if len(between) != 1 or _text(between[0].value, "parent") not in deleted:
-        return None
-    return between[0].name if _text(between[0].value, "type") == "fixed" else None
-
-
-def _semantic_without(semantic: YamlMap, links: set[str]) -> YamlMap:
-    parts = dict(semantic.entries)
+        left = (one for one in blocks if not (isinstance(one, YamlMap) and one.text("reference") in gone))
+        tree = tree.with_value("gazebo", YamlList(tuple(left), gazebo.span))
+    if not isinstance(semantic, YamlMap):
+        return tree
     for name in ("disabled_collisions", "enabled_collisions", "link_sphere_approximations"):
         part = semantic.get(name)
         if isinstance(part, YamlMap):
-            kept = [entry for entry in part if entry.name not in links]
-            if name != "link_sphere_approximations":
-                kept = [YamlEntry(entry.key, _pairs_without(entry.value, links)) for entry in kept]
-            parts[name] = YamlEntry(parts[name].key, _map_of(kept, part.span))
-    return YamlMap(parts, semantic.span)
+            # The values of pairs are maps of links; those of spheres have other keys.
+            of_others = part.without(*links)
+            is_pairs = name != "link_sphere_approximations"
+            others = of_others.mapped(lambda one: _without_keys(one.value, links)) if is_pairs else of_others
+            semantic = semantic.with_value(name, others)
+    return tree.with_value("semantic", semantic)
 
 
-def _pairs_without(pairs: YamlNode, links: set[str]) -> YamlNode:
-    if not isinstance(pairs, YamlMap):
-        return pairs
-    return _map_of([entry for entry in pairs if entry.name not in links], pairs.span)
+def _joint_to_new_root(tree: YamlMap, deleted: set[str]) -> str:
+    """Return the fixed joint that alone joins deleted links to the others, if it leads down from the deleted ones.
+
+    Otherwise "", which is the name of none.
+    """
+    ends = {joint: _ends_of(joint) for key in ("joints", "mount") for joint in tree.section(key).values()}
+    between = [joint for joint, (child, parent) in ends.items() if (child in deleted) != (parent in deleted)]
+    only = between[0] if len(between) == 1 else None
+    is_below = only is not None and ends[only][1] in deleted
+    return only.name if only and is_below and _text_of(only, "type") == "fixed" else ""
 
 
-def _map_of(entries: list[YamlEntry], span: Span) -> YamlMap:
-    return YamlMap({entry.name: entry for entry in entries}, span)
+def _without_keys(node: YamlNode, keys: set[str]) -> YamlNode:
+    return node.without(*keys) if isinstance(node, YamlMap) else node
 
 
-def _text(node: YamlNode, key: str) -> str | None:
-    value = node.child(key)
-    return value.text if isinstance(value, YamlScalar) else None
+def _ends_of(joint: YamlEntry) -> tuple[str | None, str | None]:
+    """Return the child and the parent of a joint, None for one that is not written."""
+    return _text_of(joint, "child"), _text_of(joint, "parent")
+
+
+def _text_of(entry: YamlEntry, key: str) -> str | None:
+    return entry.value.text(key) if isinstance(entry.value, YamlMap) else None

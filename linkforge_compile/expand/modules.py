@@ -21,7 +21,7 @@ from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.loader import SpecFile
 from linkforge_compile.expand.merge_objects import with_frames_as_joints
-from linkforge_compile.expand.override import Override, apply_patch, names_in_section, report_empty
+from linkforge_compile.expand.override import Override, apply_patch, report_empty
 from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
@@ -76,8 +76,7 @@ def _read_entry(
         if not isinstance(body, YamlFault):
             evaluator.sink.report(NOT_A_MODULE.at(body.span, name=name, found=describe_node(body)))
         return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key, include_stack), is_named=False)
-    rest = YamlMap({key: inner for key, inner in body.entries.items() if key not in {"with", "override"}}, body.span)
-    fields = expand_node(rest, evaluator, _entry_shape())
+    fields = expand_node(body.without("with", "override"), evaluator, _entry_shape())
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
     arguments, is_computed = _arguments(body, name, evaluator, folder)
     override = _override(body.get("override"), name, evaluator)
@@ -191,11 +190,10 @@ class ModuleBody:
     def _with_override(self, override: Override) -> ModuleBody:
         own, nested = _split_nested(override)
         modules = YamlMap({entry.name: _section_entry(entry) for entry in self.entries}, self.tree.span)
-        before = with_frames_as_joints(_with_section(self.tree, "modules", modules))
+        before = with_frames_as_joints(self.tree.with_value("modules", modules))
         patched = apply_patch(own, before, self.removed)
-        patched = without_links(patched, {*names_in_section(before, "links")} - {*names_in_section(patched, "links")})
-        section = patched.get("modules")
-        left = section.entries if isinstance(section, YamlMap) else {}
+        patched = without_links(patched, {*before.section("links")} - {*patched.section("links")})
+        left = patched.section("modules")
         patched_entries = (
             _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
             for entry in self.entries
@@ -209,7 +207,7 @@ class ModuleBody:
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
         names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
         removed = DeletedNames(names, {entry.prefix: note for entry, note in gone}) | self.removed
-        return ModuleBody(_without_key(patched, "modules"), entries, removed)
+        return ModuleBody(patched.without("modules"), entries, removed)
 
 
 def _split_nested(override: Override) -> tuple[Override, Mapping[str, Override]]:
@@ -217,41 +215,25 @@ def _split_nested(override: Override) -> tuple[Override, Mapping[str, Override]]
     section = override.patch.get("modules")
     if not isinstance(section, YamlMap):
         return override, {}
-    nested, rest = {}, {}
-    for entry in section:
-        fields = entry.value
-        rest[entry.name] = entry
-        if isinstance(fields, YamlMap):
-            rest[entry.name] = YamlEntry(entry.key, _without_key(fields, "override"))
-            if isinstance(inner := fields.get("override"), YamlMap):
-                nested[entry.name] = replace(override, patch=inner)
-    patch = _with_section(override.patch, "modules", YamlMap(rest, section.span))
-    return replace(override, patch=patch), nested
+    maps = {entry.name: entry.value for entry in section if isinstance(entry.value, YamlMap)}
+    patches = {name: fields.get("override") for name, fields in maps.items()}
+    nested = {name: replace(override, patch=one) for name, one in patches.items() if isinstance(one, YamlMap)}
+    rest = section.mapped(lambda one: maps[one.name].without("override") if one.name in maps else one.value)
+    return replace(override, patch=override.patch.with_value("modules", rest)), nested
 
 
 def _section_entry(entry: ModuleEntry) -> YamlEntry:
     """Return a module as an entry of `modules`, including `with`."""
     fields = entry.ref.node
-    key = YamlScalar(entry.name, entry.name, entry.ref.span)
     assert isinstance(fields, YamlScalar | YamlList | YamlMap | YamlFault), "an entry of `modules` is YAML"
-    if not isinstance(fields, YamlMap) or not entry.arguments.entries:
-        return YamlEntry(key, fields)
-    return YamlEntry(key, _with_section(fields, "with", YamlMap(entry.arguments.entries, fields.span)))
+    if isinstance(fields, YamlMap) and entry.arguments.entries:
+        fields = fields.with_value("with", YamlMap(entry.arguments.entries, fields.span))
+    return YamlEntry(YamlScalar(entry.name, entry.name, entry.ref.span), fields)
 
 
 def _patched_entry(entry: ModuleEntry, fields: YamlNode, before: YamlNode, override: Override) -> ModuleEntry:
     """Return a module with the patched fields of its entry of `modules`."""
     if fields is before or not isinstance(fields, YamlMap):
         return entry
-    section = fields.get("with")
-    arguments = replace(entry.arguments, entries=section.entries if isinstance(section, YamlMap) else {})
-    return with_fields(replace(entry, arguments=arguments), _without_key(fields, "with"), override.sink)
-
-
-def _without_key(node: YamlMap, key: str) -> YamlMap:
-    return YamlMap({name: entry for name, entry in node.entries.items() if name != key}, node.span)
-
-
-def _with_section(node: YamlMap, name: str, section: YamlMap) -> YamlMap:
-    key = node.entries[name].key if name in node.entries else YamlScalar(name, name, section.span)
-    return YamlMap({**node.entries, name: YamlEntry(key, section)}, node.span)
+    arguments = replace(entry.arguments, entries=fields.section("with"))
+    return with_fields(replace(entry, arguments=arguments), fields.without("with"), override.sink)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from linkforge_compile.expand.files import folders_for_xacro
+from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import Roots, is_file
 
 
