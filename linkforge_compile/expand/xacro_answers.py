@@ -31,6 +31,11 @@ class XacroAnswers:
             self.missing_packages.append(name)
         return next(iter(self._folders[name]), None)
 
+    @property
+    def packages(self) -> dict[str, Path]:
+        """The folders of the packages that were found."""
+        return {name: folders[0] for name, folders in self._folders.items() if folders}
+
     def may_read(self, path: Path) -> bool:
         # The loader has read the file itself already.
         is_allowed = path == self._main.absolute() or self._roots.hold(path)
