@@ -19,7 +19,7 @@ from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.expand.xacro import in_order
 from linkforge_compile.expressions import FAULT, Value
-from linkforge_compile.paths import find_package
+from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
@@ -271,7 +271,7 @@ class _ArgumentSearch:
         if kind == "dirname":
             return str(user.parent.absolute())
         if kind == "find":
-            folder = find_package(name, self._loader.packages, user.parent, self._loader.roots)
+            folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
             if folder is None:
                 raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
             return str(folder)
