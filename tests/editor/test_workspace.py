@@ -150,6 +150,74 @@ def test_what_is_offered(server: LanguageServer, shop: str, document: str, label
     assert [found.label for found in offered if found.label not in EVERYWHERE] == labels
 
 
+VENDOR = {
+    "arm.urdf": """\
+<robot name="arm">
+  <link name="base"/>
+  <link name="flange"/>
+  <joint name="turn" type="continuous">
+    <parent link="base"/>
+    <child link="flange"/>
+    <axis xyz="0 0 1"/>
+  </joint>
+</robot>
+""",
+    "arm.srdf": '<robot name="arm"><group name="all"><joint name="turn"/></group></robot>',
+    "hand.urdf.xacro": """\
+<robot name="hand" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="width" default="0.1"/>
+  <xacro:arg name="side" default="left"/>
+  <link name="$(arg side)_palm"/>
+</robot>
+""",
+    "cell.robot.yaml": """\
+linkforge: 1
+name: cell
+links: {table: }
+modules:
+  arm: {use: arm.urdf, srdf: arm.srdf, parent: table}
+  hand: {use: hand.urdf.xacro, parent: table, with: {side: left}}
+  tool: {use: tool.robot.yaml, parent: table}
+""",
+    "tool.robot.yaml": ARM.replace("  serial: {type: string}\n", ""),
+}
+OF_VENDORS = {
+    "what an override reaches in a URDF": ("use: arm.urdf, override: {links: {fl|}}", ["base", "flange"]),
+    "a section of that": (
+        "use: arm.urdf, override: {jo|}",
+        [
+            *("gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic", "sensors"),
+            "transmissions",
+        ],
+    ),
+    "the groups of its SRDF": ("use: arm.urdf, override: {semantic: {groups: {al|}}}", ["all"]),
+    "the groups of a spec": ("use: tool.robot.yaml, override: {semantic: {groups: {ar|}}}", ["arm"]),
+    "what an override reaches in a xacro": ("use: hand.urdf.xacro, override: {links: {pa|}}", ["left_palm"]),
+    "the arguments of a xacro": ("use: hand.urdf.xacro, with: {wi|}", ["side", "width"]),
+}
+
+
+@pytest.fixture(scope="session")
+def vendors(folder: Path) -> str:
+    """The folder of a workspace with a vendor's files, as its documents are named to the server."""
+    root = written(folder / "vendors", VENDOR)
+    assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote .linkforge/robot.schema.json\n"
+    return root.name
+
+
+@pytest.mark.parametrize(("entry", "labels"), OF_VENDORS.values(), ids=OF_VENDORS)
+def test_what_is_offered_for_a_vendors_file(server: LanguageServer, vendors: str, entry: str, labels: list[str]):
+    document = f"{HEAD.replace('../', '')}modules: {{a: {{{entry}}}}}"
+    offered = server.completions(document, f"{vendors}/cell.robot.yaml")
+    assert [found.label for found in offered if found.label not in EVERYWHERE] == labels
+
+
+def test_an_argument_of_a_xacro_is_put_in_with_its_default(server: LanguageServer, vendors: str):
+    document = f"{HEAD.replace('../', '')}modules:\n  a:\n    use: hand.urdf.xacro\n    with:\n      |"
+    found = {one.label: one.inserted for one in server.completions(document, f"{vendors}/cell.robot.yaml")}
+    assert found == {"side": "side: ${1:left}", "width": 'width: ${1:"0.1"}'}
+
+
 def test_an_included_file_has_the_names_of_the_robot(server: LanguageServer, shop: str):
     document = f"{MODELINE}linkforge: 1\njoints:\n  weld: {{parent: |}}"
     assert [found.label for found in server.completions(document, f"{shop}/cells/palette.yaml")] == CELL_LINKS
