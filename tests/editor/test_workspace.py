@@ -70,10 +70,11 @@ frames:
   marker: {parent: base}
 """
 
+MODELINE = "# yaml-language-server: $schema=../.linkforge/robot.schema.json\n"
 FILES = {
     "parts/arm.robot.yaml": ARM,
     "cells/cell.robot.yaml": CELL,
-    "cells/palette.yaml": PALETTE,
+    "cells/palette.yaml": MODELINE + PALETTE,
     "faulty.robot.yaml": FAULTY,
 }
 
@@ -99,7 +100,6 @@ def shop(folder: Path) -> str:
     return root.name
 
 
-MODELINE = "# yaml-language-server: $schema=../.linkforge/robot.schema.json\n"
 HEAD = f"{MODELINE}linkforge: 1\nname: cell\n"
 CELL_LINKS = ["left_base", "left_tool0", "table"]
 ARGUMENTS = ["fast", "hand", "reach", "serial"]
@@ -337,6 +337,20 @@ def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
     assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
+
+
+def test_included_files_without_a_schema_are_named(server: LanguageServer, folder: Path):
+    cell = "linkforge: 1\nname: cell\ninclude: [parts/colors.yaml, parts/steel.robot.yaml]\nlinks: {table: }\n"
+    files = {"cell.robot.yaml": cell, "parts/colors.yaml": PALETTE, "parts/steel.robot.yaml": "linkforge: 1\n"}
+    root = written(folder / "included", files)
+    told = linkforge("schema", "--workspace", cwd=root).stderr
+    assert told.splitlines()[0] == (
+        f"'parts/colors.yaml' has no schema in editors; begin it with '{MODELINE.strip()}', or call it NAME.robot.yaml"
+    )
+    (root / "parts/colors.yaml").write_text(f"# Colors of the cell.\n{MODELINE}{PALETTE}")
+    assert linkforge("schema", "--workspace", cwd=root).stderr == ".linkforge/robot.schema.json is up to date\n"
+    offered = server.completions(f"{MODELINE}linkforge: 1\njoints: {{a: {{parent: |}}}}", "included/parts/colors.yaml")
+    assert [found.label for found in offered] == ["table"]
 
 
 def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):
