@@ -25,6 +25,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.expand import XACRO
+from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import SRDF, URDF, Format, Rendering
 from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
@@ -218,15 +219,18 @@ class RobotDescription:
             )
 
     def _sets_of(self, variant: str | None) -> Mapping[str, str]:
-        """Return what a variant sets; ValueError for one that the spec does not have."""
+        """Return what a variant sets, or several (`a+b`); ValueError for one that the spec does not have."""
         variants = self._listing.variants
-        if variant is not None and variant not in variants:
-            from linkforge_compile.diagnostics.suggest import did_you_mean
+        sets: dict[str, str] = {}
+        for name in names_in_variant(variant, variants):
+            if name not in variants:
+                from linkforge_compile.diagnostics.suggest import did_you_mean
 
-            there_are = f"; its variants are {', '.join(variants)}" if variants else "; it declares no variants"
-            hint = did_you_mean(variant, variants) or there_are
-            raise ValueError(f"{self.spec} has no variant named '{variant}'{hint}")
-        return {} if variant is None else variants[variant]
+                there_are = f"; its variants are {', '.join(variants)}" if variants else "; it declares no variants"
+                hint = did_you_mean(name, variants) or there_are
+                raise ValueError(f"{self.spec} has no variant named '{name}'{hint}")
+            sets |= variants[name]
+        return sets
 
     def _variant_of(self, context: LaunchContext) -> str | None:
         return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None

@@ -25,6 +25,7 @@ WITHOUT_A_CASE = {
     "LF3066": "expand/test_includes.py",
     "LF3067": "cli/test_check.py",
     "LF3080": "expand/test_variants.py",
+    "LF3081": "expand/test_variants.py",
     "LF3029": "expand/test_parameters.py",
     "LF3302": "diagnostics/test_floods.py",
     "LF3303": "diagnostics/test_floods.py",

@@ -8,7 +8,16 @@ from functools import cache
 from operator import is_
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, NoReturn, Self, TypeAlias, TypeVar
 
-from linkforge_compile.core.fields import Child, Name, Reference, Spec, check_numbers, container_fields, field_specs
+from linkforge_compile.core.fields import (
+    Child,
+    Name,
+    Reference,
+    Spec,
+    check_numbers,
+    container_fields,
+    field_specs,
+    tuple_fields,
+)
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced, SourceRef
 
@@ -114,7 +123,7 @@ class Element(Part):
     extra_inside: Sequence[Inside] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        """Make tuples of sequences and FrozenMaps of mappings, all the way down; then check the values."""
+        """Make tuples of sequences, FrozenMaps of mappings and vectors of lists of numbers; then check the values."""
         if self.extra_attributes is not _NOTHING:
             set_field(self, "extra_attributes", attribute_pairs(self.extra_attributes))
         for name, container in container_fields(type(self)).items():
@@ -123,6 +132,9 @@ class Element(Part):
                 set_field(self, name, frozen(FrozenMap(value)))
             elif not isinstance(value, tuple):
                 set_field(self, name, tuple(value))
+        for name, kind in tuple_fields(type(self)).items():
+            if isinstance(value := getattr(self, name), list | tuple):
+                set_field(self, name, kind(*value))
         self._check()
 
     def _check(self) -> None:

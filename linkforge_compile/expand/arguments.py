@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
@@ -149,25 +149,37 @@ def _spec_value(name: str, value: object) -> Value:
 
 
 class Variants(NamedTuple):
-    """The settings of each variant of a file, and the name of the selected one, None for the defaults."""
+    """The settings of each variant of a file, and the names of the selected ones, of which the last one decides."""
 
     by_name: Mapping[str, YamlMap] = MappingProxyType({})
-    selected: str | None = None
+    selected: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, spec: SpecFile, selected: str | None = None) -> Variants:
-        """Return those of a file; an empty one has no settings."""
-        section = spec.tree.get("variants")
-        entries = section.entries.values() if isinstance(section, YamlMap) else ()
+    def of(cls, spec: SpecFile, variant: str | None = None) -> Variants:
+        """Return those of a file, with those that `--variant` selects; an empty one has no settings."""
+        entries = spec.tree.section("variants").values()
         maps = {
             one.name: one.value if isinstance(one.value, YamlMap) else YamlMap({}, one.value.span) for one in entries
         }
-        return cls(maps, selected)
+        return cls(maps, tuple(name for name in names_in_variant(variant, maps) if name in maps))
+
+    def settings_of(self, parameter: str) -> tuple[tuple[str, YamlNode], ...]:
+        """Return the variants that set a parameter, and the values; the selected ones first, from the last one back."""
+        names = dict.fromkeys((*reversed(self.selected), *self.by_name))
+        values = ((name, self.by_name[name].get(parameter)) for name in names)
+        return tuple((name, value) for name, value in values if value is not None)
 
     @property
     def entries(self) -> Iterator[YamlEntry]:
         """Every setting of every variant."""
         return (entry for variant in self.by_name.values() for entry in variant)
+
+
+def names_in_variant(variant: str | None, known: Container[str]) -> tuple[str, ...]:
+    """Return the names in `a+b`, each once; a variant may have such a name itself."""
+    if variant is None:
+        return ()
+    return (variant,) if variant in known else tuple(dict.fromkeys(variant.split("+")))
 
 
 def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
@@ -181,10 +193,17 @@ def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
     return Variants.of(spec).by_name if spec else ()
 
 
-def report_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:
-    """Report a `--variant` that the compiled file does not have."""
-    text = f"--variant {name}"
-    where = _span(SourceFile(COMMAND_LINE, text), len(text) - len(name), len(name))
+def report_unknown_variants(variant: str | None, spec: SpecFile, sink: Diagnostics) -> bool:
+    """Report each name in `--variant` that the compiled file does not have; return whether there is one."""
+    known = Variants.of(spec).by_name
+    unknown = [name for name in names_in_variant(variant, known) if name not in known]
+    for name in unknown:
+        _report_unknown_variant(name, f"--variant {variant}", spec, sink)
+    return bool(unknown)
+
+
+def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnostics) -> None:
+    where = _span(SourceFile(COMMAND_LINE, text), text.index(name, len("--variant ")), len(name))
     known = Variants.of(spec).by_name
     near = nearest(name, known)
     hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"

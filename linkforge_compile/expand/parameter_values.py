@@ -15,6 +15,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_NOT_SET,
     UNFIT_CONSTRAINT,
     UNKNOWN_PARAMETER,
+    VARIANTS_DISAGREE,
 )
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants, listed
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
@@ -135,11 +136,12 @@ def parameter_value(
     if (node := bound.node(declaration.name, type_)) is not None:
         writer = Writer(AnnotatingSink(bound.sink, declared), bound.evaluator, bound.arguments.folder)
         candidates.append((node, writer, bound.settings(declaration.name, node)))
-    for name, variant in variants.by_name.items():
-        if (node := variant.get(declaration.name)) is not None:
-            writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
-            is_selected = name == variants.selected
-            candidates.append((node, writer, [Setting(Kind.VARIANT, node, evaluator, name)] if is_selected else []))
+    else:
+        _report_disagreement(declaration.name, variants, evaluator.sink)
+    for name, node in variants.settings_of(declaration.name):
+        writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
+        is_selected = name in variants.selected
+        candidates.append((node, writer, [Setting(Kind.VARIANT, node, evaluator, name)] if is_selected else []))
     if (node := declaration.default) is not None:
         writer = Writer(evaluator.sink, evaluator, spec.part_at(node.span).folder)
         candidates.append((node, writer, [Setting(Kind.PARAMETER_DEFAULT, node, evaluator)]))
@@ -177,6 +179,16 @@ def _fitting_value(
     if path != converted and Path(path).is_absolute():
         writer.sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=converted))
     return path
+
+
+def _report_disagreement(parameter: str, variants: Variants, sink: Diagnostics) -> None:
+    """Report a parameter that a selected variant sets to another value than the one that decides."""
+    selected = [setting for setting in variants.settings_of(parameter) if setting[0] in variants.selected]
+    for other, node in selected[1:]:
+        name, used = selected[0]
+        if plain_value(node) != plain_value(used):
+            notes = [Note(f"variant '{other}' sets it here", node.span)]
+            sink.report(VARIANTS_DISAGREE.at(used.span, name=parameter, by=name, other=other, notes=notes))
 
 
 def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:

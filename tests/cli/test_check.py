@@ -73,7 +73,7 @@ def test_a_fault_of_a_shared_module_is_reported_once(tmp_path: Path):
 
 
 def test_of_two_variants_none_is_forgotten_in_silence(tmp_path: Path):
-    run = linkforge("check", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
+    run = linkforge("deps", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
     assert run.returncode == 2
     assert "argument --variant: may be given once, found 'sim' and 'real'" in run.stderr
 
@@ -170,7 +170,11 @@ def test_lines_that_name_a_file_spell_it_out(tmp_path: Path):
     expanded = linkforge("expand", HOSTILE, cwd=tmp_path).stdout
     assert SPELT in expanded
     assert "\n::error" not in expanded
-    for words in (("diff", HOSTILE, HOSTILE), ("compile", HOSTILE, HOSTILE), ("where", f"build/{urdf.name}", "base")):
+    for words in (
+        ("diff", HOSTILE, HOSTILE),
+        ("compile", HOSTILE, HOSTILE, "-o", "b/"),
+        ("where", f"build/{urdf.name}", "base"),
+    ):
         run = linkforge(*words, cwd=tmp_path)
         assert r"\n::error" in run.stdout + run.stderr
         assert (run.stdout + run.stderr).replace("\n", "").isprintable()

@@ -183,7 +183,7 @@ def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
-@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1"])
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: Path):
     plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
     piped = program("compile", "swing.robot.yaml", "-o", name, cwd=pendulum)
@@ -194,6 +194,19 @@ def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: P
         file.flush()
         subprocess.run(command, cwd=pendulum, stdout=file, check=True, timeout=60)
     assert (pendulum / "out").read_text() == f"before\n{plain}"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
+def test_a_pipe_that_a_shell_opened_is_written(pendulum: Path):
+    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    read, write = os.pipe()
+    with os.fdopen(read) as pipe:
+        command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", f"/dev/fd/{write}"]
+        subprocess.run(command, cwd=pendulum, pass_fds=[write], check=True, timeout=60)
+        os.close(write)
+        assert pipe.read() == plain
+    piped = program("compile", "swing.robot.yaml", "-q", "-o", "/dev/stderr", cwd=pendulum)
+    assert (piped.returncode, piped.stderr) == (0, plain)
 
 
 def test_standard_output_accepts_one_format(pendulum: Path):
@@ -405,7 +418,7 @@ def test_standard_input_that_is_not_text_is_reported(pendulum: Path):
     command = f"printf '\\377\\376' | {sys.executable} -m linkforge_compile compile -"
     run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
     assert run.returncode == 2
-    assert "standard input is not UTF-8" in run.stderr
+    assert "standard input cannot be read: it is UTF-16" in run.stderr
 
 
 def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp_path_factory: pytest.TempPathFactory):
@@ -420,7 +433,10 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
     [
         ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
-        (("compile", "a.robot.yaml", "b.robot.yaml"), "takes one spec, found 2"),
+        (
+            ("compile", "a.robot.yaml", "b.robot.yaml"),
+            "-o takes one folder for the outputs of several specs, found none",
+        ),
         (("compile", ""), "takes one spec, found '': is a variable of the shell empty?"),
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),

@@ -273,5 +273,5 @@ def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
     "name", ["cell.robot.yaml", "cell.yaml", "cell.yml", "cell.urdf", "cell.urdf.xacro", "cell.xacro"]
 )
 def test_files_are_named_after_the_spec(name: str):
-    paths = targets_of(f"robots/{name}", ["out/"], "urdf").paths
+    paths = targets_of(f"robots/{name}", ["out/"], ["urdf"]).paths
     assert paths == {"urdf": Path("out/cell.urdf")}

@@ -519,12 +519,9 @@ def test_extra_content_of_an_inner_element_joins_that_of_its_keys(read):
         links:
           a:
             visual:
-              box: [1, 1, 1]
+              box: {size: [1, 1, 1], extra_attributes: {unit: m}}
               material: red
-              extra_inside:
-                geometry:
-                  extra_attributes: {by: me}
-                  extra_inside: {box: {extra_attributes: {unit: m}}}
+              extra_inside: {geometry: {extra_attributes: {by: me}}}
             inertial:
               mass: 1
               inertia: {ixx: 1, iyy: 1, izz: 1}

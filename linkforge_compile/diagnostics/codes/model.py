@@ -177,6 +177,9 @@ UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and take
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )
+UNPREFIXED_HARDWARE = Code(
+    "LF5706", _W, "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}"
+)
 UNPREFIXED_TOPICS = Code(
     "LF5754",
     _W,

@@ -83,6 +83,9 @@ TAG_NOT_NUMBER = Code("LF3071", _E, "'{tag}' must be followed by a number, found
 
 # LF308x: variants
 UNKNOWN_VARIANT = Code("LF3080", _E, "{spec} has no variant named '{name}'{hint}")
+VARIANTS_DISAGREE = Code(
+    "LF3081", _W, "parameter '{name}' is set by variant '{by}', which replaces what variant '{other}' sets"
+)
 
 # LF309x: what depends on how the file is used
 PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; leave $(prefix) out")
