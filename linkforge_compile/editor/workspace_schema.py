@@ -10,6 +10,7 @@ import posixpath
 from collections.abc import Iterable, Sequence
 from urllib.parse import quote
 
+from linkforge_compile.editor.bundle import bundle
 from linkforge_compile.editor.completions import (
     ARGUMENT,
     NAMES,
@@ -20,7 +21,6 @@ from linkforge_compile.editor.completions import (
     marked_names,
 )
 from linkforge_compile.editor.vocabulary import Vocabulary
-from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.json_schema import Json, Schema, mapping
 
 

@@ -17,6 +17,9 @@ EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
 GEOMETRY = ["box", "capsule", "cylinder", "mesh", "sphere"]
 JOINT_TYPES = ["continuous", "fixed", "floating", "planar", "prismatic", "revolute"]
 JOINT_KEYS = ["axis", "calibration", "child", "dynamics", "gazebo", "limits", "mimic", "origin", "parent"]
+TYPED_JOINT_KEYS = sorted([*JOINT_KEYS, "safety_controller"])
+SENSOR_KEYS = ["always_on", "frame", "link", "origin", "plugin", "topic", "update_rate", "visualize"]
+SENSOR_BLOCKS = ["camera", "contact", "force_torque", "gps", "imu", "lidar"]
 LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "shape_order", "visual"]
 SENSOR_KINDS = ["camera", "contact", "depth_camera", "force_torque", "gps", "gpu_lidar", "imu", "lidar", "ray"]
 ROBOT_KEYS = [
@@ -67,6 +70,29 @@ OFFERED = {
     "in a joint": (
         "joints:\n  elbow:\n    |",
         sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller", "type"]),
+    ),
+    "in a fixed joint": (
+        "joints:\n  weld:\n    type: fixed\n    |",
+        [key for key in TYPED_JOINT_KEYS if key not in {"axis", "limits"}],
+    ),
+    "in a floating joint": (
+        "joints:\n  weld: {type: floating, li|}",
+        [key for key in TYPED_JOINT_KEYS if key != "axis"],
+    ),
+    "in a joint whose type is computed": (
+        "joints:\n  weld:\n    type: $(kind)\n    |",
+        TYPED_JOINT_KEYS,
+    ),
+    "in a module's fixed joint": (
+        "modules: {arm: {use: a.robot.yaml, joint: {type: fixed, na|}}}",
+        ["calibration", "dynamics", "gazebo", "mimic", "name", "safety_controller"],
+    ),
+    "in an imu": ("sensors:\n  front:\n    type: imu\n    |", sorted([*SENSOR_KEYS, "imu"])),
+    "in a depth camera": ("sensors:\n  front: {type: depth_camera, ca|}", sorted([*SENSOR_KEYS, "camera"])),
+    "in a sensor": (
+        "sensors:\n  front:\n    |",
+        # Two of them are also snippets.
+        sorted([*SENSOR_KEYS, "camera", "lidar", *SENSOR_BLOCKS, "type"]),
     ),
     "a joint's type": ("joints:\n  elbow:\n    type: |", JOINT_TYPES),
     "half a joint's type in flow style": ("joints:\n  elbow: {type: rev|}", JOINT_TYPES),
@@ -155,8 +181,8 @@ OFFERED = {
         ["frame", "joint", "origin"],
     ),
     "half a key behind another in flow style": (
-        "joints:\n  elbow: {type: fixed, pa|}",
-        sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller"]),
+        "joints:\n  elbow: {type: revolute, pa|}",
+        TYPED_JOINT_KEYS,
     ),
     "half a shape of a list in flow style": (
         "links: {base: {collision: [{cy|}]}}",

@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import refuse_links_out, write_json
-    from linkforge_compile.schema.bundle import bundle_text
+    from linkforge_compile.editor.bundle import bundle_text
 
     if arguments.workspace is None:
         write_json(bundle_text(), arguments.output, arguments)
