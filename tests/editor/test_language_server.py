@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from linkforge_compile import compile_text
 from tests.conftest import ROOT
 from tests.editor.language_server import Fault, LanguageServer
 
@@ -380,6 +381,35 @@ FAULTS = {
 @pytest.mark.parametrize(("document", "faults"), FAULTS.values(), ids=FAULTS)
 def test_what_is_underlined(server: LanguageServer, document: str, faults: list[tuple[str, str]]):
     assert server.faults(HEAD + document) == [Fault(*fault) for fault in faults]
+
+
+CONTINUED = {
+    # A list or map in brackets on several lines, and whether editors take it.
+    "at column 0": ("links: {base: ,\ntip: }\n", False),
+    "by a tab": ("links: {base: ,\n\ttip: }\n", False),
+    "by a space": ("links: {base: ,\n tip: }\n", True),
+    "by a space and a tab": ("links: {base: ,\n \ttip: }\n", True),
+    "at the column of its key": ("links:\n  base: {visual: {box: [1,\n  1, 1]}}\n", False),
+    "beyond its key": ("links:\n  base: {visual: {box: [1,\n   1, 1]}}\n", True),
+    "below the key": ("links:\n  base:\n    {visual:\n   {box: [1, 1, 1]}}\n", True),
+    "in a list at the column of the dash": ("include:\n- a.yaml\ndata: {}\nlinks: {base: {collision: [\n]}}\n", False),
+    "in an item, at the column of its key": ("gazebo:\n  - plugins: {a: {filename: b,\n    parameters: }}\n", False),
+    "in an item, beyond its key": ("gazebo:\n  - plugins: {a: {filename: b,\n     parameters: }}\n", True),
+    "in an item in brackets": ("gazebo:\n  - {material: a,\n  mu1: 1}\n", False),
+    "in an item in brackets, beyond the dash": ("gazebo:\n  - {material: a,\n   mu1: 1}\n", True),
+    "closed at the column of its key": ("links: {\n  base: {visual: {sphere: 1}},\n}\n", True),
+    "closed at the column of its key by two": ("links: {base: {\n}}\n", False),
+    "closed by a tab": ("links: {\n  base: ,\n\t}\n", True),
+    "a comment and an empty line": ("links: {\n# base\n\n  base: }\n", True),
+    "in quotes": ("description: 'x'\nlinks: {base: {collision: [], extra: '<a>\n</a>'}}\n", False),
+}
+
+
+@pytest.mark.parametrize(("document", "is_taken"), CONTINUED.values(), ids=CONTINUED)
+def test_check_warns_of_lines_that_editors_refuse(server: LanguageServer, document: str, is_taken: bool):
+    spec = f"linkforge: 1\nname: arm\n{document}"
+    warned = [one for one in compile_text(spec).diagnostics if one.code.id == "LF1077"]
+    assert (server.faults(MODELINE + spec) == [], warned == []) == (is_taken, is_taken)
 
 
 SPECS = [
