@@ -118,7 +118,7 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
     for entry in spec.tree.section("modules").values():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
         if isinstance(use, YamlScalar) and use.text not in listed:
-            listed[use.text] = _list_module(scope.builtins.site(use.text, use.span), loader, Diagnostics())
+            listed[use.text] = _list_module(scope.site(use.text, use.span), loader, Diagnostics())
     return {use: listing for use, listing in listed.items() if listing}
 
 
