@@ -11,6 +11,7 @@ TOLD_ELSEWHERE = {
     "LF3005": "tests/expand/test_xacro_modules.py",
     "LF3301": "tests/importers/test_urdf.py",
     "LF5005": "tests/cases/bad_urdf",
+    "LF6114": "tests/cases/refused_urdf",
     "LF7085": "tests/cli/test_compile.py",
 }
 

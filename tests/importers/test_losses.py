@@ -12,7 +12,7 @@ import pytest
 from lxml import etree
 
 import linkforge_compile.importing
-from linkforge_compile import Severity, compile_text, import_urdf, render_urdf
+from linkforge_compile import compile_text, import_urdf, render_urdf
 from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Diagnostics, sink
 from linkforge_compile.formats import URDF
@@ -309,10 +309,6 @@ def test_a_mutated_urdf_comes_out_the_same_or_is_reported(seed: int, shared: Pat
         if read.text is None or read.has_errors or read.losses:
             continue
         compilation = compile_text(read.text)
-        if compilation.has_errors:
-            # A copy of a link or joint comes in raw, and is told once the spec is compiled.
-            assert {one.code.id for one in compilation.diagnostics if one.severity is Severity.ERROR} == {"LF7160"}
-            continue
         judged += 1
         ours = etree.fromstring(render_urdf(compilation.result()).encode())
         # What stands in the material of a visual comes out in that of the robot, which the judge does not look into.

@@ -90,7 +90,9 @@ VARIANTS_DISAGREE = Code(
 # LF309x: what depends on how the file is used
 PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; leave $(prefix) out")
 NAME_OUTSIDE_TEXT = Code("LF3091", _E, "{function} is allowed only in free parts and 'extra'; elsewhere write the name")
-PATH_OF_THIS_MACHINE = Code("LF3092", _W, "path() ties the output to this machine; pass it in by 'with' instead")
+PATH_OF_THIS_MACHINE = Code(
+    "LF3092", _W, "path() ties the output to this machine; write 'package://NAME/PATH', or pass it in by 'with'"
+)
 FILE_OUTSIDE_PACKAGE = Code(
     "LF3093",
     _W,
