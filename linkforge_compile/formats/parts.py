@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import Field, fields
 from functools import cache
 from itertools import chain
 from operator import attrgetter
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.core.fields import Flag, Number, Spec, Vector, field_specs
+from linkforge_compile.core.fields import Number, Vector, field_specs
 from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.models.ros2_control import Interface
-from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
+from linkforge_compile.core.part import WithExtras
 from linkforge_compile.formats.element import inside_of
 from linkforge_compile.formats.xml_text import is_writable
 from linkforge_compile.source import SourceRef
@@ -22,7 +21,7 @@ from linkforge_compile.source import SourceRef
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-Part: TypeAlias = Element | Link | Interface
+Part: TypeAlias = WithExtras | Link | Interface
 """What becomes an XML element, and may hold what no field says."""
 
 
@@ -129,7 +128,7 @@ def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], 
     inside: list[object] = []
     doubtful: list[tuple[str, object]] = []
     for name, value in zip(names, values_of(part), strict=True):
-        if isinstance(value, Element):
+        if isinstance(value, WithExtras):
             inside.append(value)
         elif value:
             if name == RAW_XML or not _is_surely_writable(value):
@@ -159,7 +158,7 @@ def _is_surely_writable(value: object) -> bool:
 
 
 # A union takes three times as long to ask.
-_PARTS = (Element, Link, Interface)
+_PARTS = (WithExtras, Link, Interface)
 
 _WITHOUT_TEXT = (float, int, NoneType)
 
@@ -178,30 +177,18 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
 
     Half of the parts are of a class without such a field.
     """
-    if issubclass(kind, Element | Link):
-        specs = field_specs(kind)
-        own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
-        names = tuple(field.name for field in own if not _holds_numbers(field, specs.get(field.name)))
+    if issubclass(kind, Interface):
+        names: tuple[str, ...] = ("parameters",)
     else:
-        names = ("parameters",)
+        specs = field_specs(kind).items()
+        names = tuple(name for name, spec in specs if spec.xml and not isinstance(spec, Number | Vector))
+        names += tuple(name for name in (RAW_XML,) if hasattr(kind, name))
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)
-
-
-def _holds_numbers(field: Field[object], spec: Spec | None) -> bool:
-    """Whether a field holds neither parts nor text: its class refuses them, or it only records a spelling."""
-    if isinstance(spec, Flag) or field.type == "bool":
-        return not field.compare
-    return isinstance(spec, Number | Vector) or _NUMBERS.issuperset(str(field.type).split(" | "))
 
 
 def _getter(names: tuple[str, ...]) -> _Values:
     return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
 
 
-_NUMBERS = frozenset({"float", "int", "Vector3", "None"})
-"""What constructors refuse anything else for; a truth is taken as it comes, and written."""
-
 _EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
-
-_EVERYWHERE = frozenset(field.name for field in fields(Element))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any, Self, TypeAlias
 
 from linkforge_compile.core import constants as default
@@ -162,7 +161,7 @@ class LinkDraft:
     def sensor(self, sensor: Sensor) -> Self:
         """Add a sensor as it is, but on this link."""
         self._check_not_committed()
-        self._sensors.append(replace(sensor, link_name=self._link_name))
+        self._sensors.append(sensor.with_fields(link_name=self._link_name))
         return self
 
     def _add_sensor(
@@ -363,4 +362,4 @@ class JointDraft(LinkDraft):
                 f"Joint '{joint.name}' requested ros2_control system '{self._control_system}', but it was not found.",
                 target="Ros2Control",
             )
-        return replace(system, joints=(*system.joints, Ros2ControlJoint(joint.name, **self._control)))
+        return system.with_fields(joints=(*system.joints, Ros2ControlJoint(joint.name, **self._control)))

@@ -1,12 +1,10 @@
 """Vectors, poses, the shapes that links are made of, and their materials."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
-from typing import Annotated, ClassVar, TypeAlias
+from typing import Annotated, ClassVar, Self, TypeAlias
 
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA, PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
@@ -23,7 +21,7 @@ from linkforge_compile.core.fields import (
     not_finite,
     require_finite,
 )
-from linkforge_compile.core.part import Element, Part
+from linkforge_compile.core.part import Element, Part, extras_last
 from linkforge_compile.units import ANGLE, LENGTH
 
 
@@ -37,7 +35,7 @@ class GeometryType(StrEnum):
     CAPSULE = "capsule"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Vector3(Part):
     """Three numbers along x, y, z; the unit is that of the field which holds them. Integers stay integers.
 
@@ -74,7 +72,8 @@ _ZERO = Vector3(0.0, 0.0, 0.0)
 _ONE = Vector3(1.0, 1.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Transform(Element):
     """A pose in the frame of the thing that holds it: `<origin xyz rpy>`.
 
@@ -94,7 +93,7 @@ class Transform(Element):
         return self.is_stated or self != IDENTITY
 
     @classmethod
-    def identity(cls) -> Transform:
+    def identity(cls) -> Self:
         """Return the pose that moves nothing."""
         return cls()
 
@@ -109,15 +108,14 @@ IDENTITY = Transform()
 class _Shape(Element):
     """What shapes have in common: a type, which is their tag inside `<geometry>`."""
 
-    __slots__ = ()
-
     @property
     def type(self) -> GeometryType:
         """The tag of the shape inside `<geometry>`."""
         return GeometryType(self.TAG)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Box(_Shape):
     """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m].
 
@@ -150,7 +148,8 @@ _RADIUS = Number(LENGTH, ABOVE_ZERO, example="0.1", is_required_in_urdf=True)
 _LENGTH = Number(LENGTH, ABOVE_ZERO, example="0.5", is_required_in_urdf=True)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Cylinder(_Shape):
     """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
 
@@ -173,7 +172,8 @@ class Cylinder(_Shape):
         return PI * (self.radius * self.radius) * self.length
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Sphere(_Shape):
     """A sphere about its origin: `<sphere radius>` [m].
 
@@ -195,7 +195,8 @@ class Sphere(_Shape):
         return 4 / 3 * PI * (self.radius * self.radius * self.radius)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Capsule(_Shape):
     """A cylinder about its z axis with a half sphere on either end: `<capsule radius length>`, both [m].
 
@@ -220,7 +221,8 @@ class Capsule(_Shape):
         return PI * (self.radius * self.radius) * (self.length + 4 / 3 * self.radius)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Mesh(_Shape):
     """A shape from a file: `<mesh filename scale>`.
 
@@ -274,7 +276,8 @@ def _require_extents(shape: Cylinder | Sphere | Capsule, *names: str) -> None:
     require_finite(shape, *names)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Color(Element):
     """Red, green, blue and opacity, each from 0 to 1: `<color rgba>`.
 
@@ -302,17 +305,17 @@ class Color(Element):
                 )
 
     @classmethod
-    def white(cls) -> Color:
+    def white(cls) -> Self:
         """Return opaque white."""
         return cls(1.0, 1.0, 1.0, 1.0)
 
     @classmethod
-    def black(cls) -> Color:
+    def black(cls) -> Self:
         """Return opaque black."""
         return cls(0.0, 0.0, 0.0, 1.0)
 
     @classmethod
-    def grey(cls) -> Color:
+    def grey(cls) -> Self:
         """Return the grey of a shape without a color: 0.7, opaque."""
         return cls(*DEFAULT_MATERIAL_RGBA)
 
@@ -324,7 +327,8 @@ class Color(Element):
         return f"{self.r} {self.g} {self.b} {self.a}"
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Material(Element):
     """A color, a texture or both, under a name that may be empty: `<material name>`.
 

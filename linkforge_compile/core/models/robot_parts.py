@@ -4,30 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, Literal, overload
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
+from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, PartList, TableField, itself
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.transmission import Transmission
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.geometry import Material
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.ros2_control import Ros2Control
-    from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import SemanticRobotDescription
-    from linkforge_compile.core.models.transmission import Transmission
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Sourced
 
 
 class _Tree:
@@ -79,13 +77,11 @@ class SemanticField:
     def __get__(self, robot: RobotParts | None, owner: type) -> SemanticRobotDescription | None:
         if robot is None:
             return None  # the field's default, to dataclasses
-        from linkforge_compile.core.models.srdf import SemanticRobotDescription
-
         description: SemanticRobotDescription | None = vars(robot)["semantic"]
         if description is None:
             return SemanticRobotDescription(robot.name)
         if description.robot_name != robot.name:
-            description = vars(robot)["semantic"] = replace(description, robot_name=robot.name)
+            description = vars(robot)["semantic"] = description.with_fields(robot_name=robot.name)
         return description
 
     def __set__(self, robot: RobotParts, description: SemanticRobotDescription | None) -> None:
@@ -107,7 +103,7 @@ class VersionStatedField:
 
 
 @dataclass
-class RobotParts:
+class RobotParts(Sourced):
     """The parts of a robot, each kind in the order in which they were added.
 
     The collections are tuples with look-up by name (see NamedTable), and take any iterable. Two links or two joints of
@@ -133,12 +129,11 @@ class RobotParts:
     _: KW_ONLY
     extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
     version_stated: VersionStatedField = VersionStatedField()
-    source: SourceRef | None = field(default=None, compare=False, repr=False)
-    _last_tree: _Tree | None = field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         require_robot_name(self.name)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
+        self._last_tree: _Tree | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Return the state for copies and pickles: lists of its own, without what can be computed."""
@@ -393,7 +388,7 @@ def select_new_materials(added: Mapping[str, Material], own: Mapping[str, Materi
                 value=name,
             )
     return {
-        name: replace(own[name], after_links=False) if name in own else material
+        name: own[name].with_fields(after_links=False) if name in own else material
         for name, material in added.items()
         if name not in own or own[name].after_links > material.after_links
     }

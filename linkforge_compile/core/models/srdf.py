@@ -1,13 +1,11 @@
 """The semantic description of a robot for motion planning: SRDF."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from numbers import Real
 from operator import attrgetter
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
 from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
@@ -25,7 +23,7 @@ from linkforge_compile.core.fields import (
 )
 from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, itself
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FrozenMap, set_field
+from linkforge_compile.core.part import Element, FrozenMap, extras_last, set_field
 from linkforge_compile.units import LENGTH
 
 
@@ -37,7 +35,8 @@ class VirtualJointType(StrEnum):
     FLOATING = SRDF_VJOIN_FLOATING
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class VirtualJoint(Element):
     """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
@@ -60,7 +59,8 @@ class VirtualJoint(Element):
         require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Chain(Element):
     """The joints from one link to another: `<chain base_link tip_link>`; both ends may be the same link.
 
@@ -79,7 +79,8 @@ class Chain(Element):
         require_not_blank(self.tip_link, "tip_link of a chain", "ChainTipLink", ("tip_link",))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class PlanningGroup(Element):
     """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
 
@@ -127,7 +128,8 @@ def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tu
     return ()
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class GroupState(Element):
     """A named pose of a group: `<group_state name group>`.
 
@@ -166,7 +168,8 @@ def _position_tuple(given: object) -> tuple[object, ...]:
     return (float(given),) if isinstance(given, Real) else (given,)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class EndEffector(Element):
     """A group that is a tool at the end of an arm: `<end_effector name group parent_link parent_group>`.
 
@@ -190,7 +193,8 @@ class EndEffector(Element):
         require_not_blank(self.group, "group of an end effector", "GroupName", ("group",))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class PassiveJoint(Element):
     """A joint that nothing drives: `<passive_joint name>`.
 
@@ -207,7 +211,8 @@ class PassiveJoint(Element):
         require_not_blank(self.name, "passive joint name", "PassiveJointName")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointProperty(Element):
     """A remark on a joint that a planner reads: `<joint_property joint_name property_name value>`.
 
@@ -233,7 +238,8 @@ class JointProperty(Element):
                 )
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class CollisionPair(Element):
     """Two links whose collision is ignored or checked: `<disable_collisions>`, `<enable_collisions>`.
 
@@ -269,7 +275,8 @@ class CollisionPair(Element):
 _CENTER = Number(LENGTH, key="center", xml="@center", example="[0, 0, 0.1]")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class SrdfSphere(Element):
     """A sphere in the frame of its link: `<sphere center radius>`, all [m].
 
@@ -305,7 +312,8 @@ class SrdfSphere(Element):
                 raise not_finite(number, name, f"SrdfSphere.{name}", field)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class LinkSphereApproximation(Element):
     """Spheres, or none, in place of the shape of a link: `<link_sphere_approximation link>`.
 
@@ -337,7 +345,8 @@ _MEMBERS: Mapping[str, KeySpec] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class SemanticRobotDescription(Element):
     """The SRDF of a robot: `<robot name>`, with an empty name until the robot is known.
 
@@ -365,14 +374,14 @@ class SemanticRobotDescription(Element):
         for name, spec in _MEMBERS.items():
             members = getattr(self, name)
             if not isinstance(members, NamedTable):
-                set_field(self, name, NamedTable(spec, members))
+                set_field(self, name, NamedTable(members, spec))
 
     @property
     def is_empty(self) -> bool:
         """True for a description without members and raw XML."""
         return self == SemanticRobotDescription(self.robot_name)
 
-    def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
+    def merge_with(self, other: "SemanticRobotDescription") -> Self:
         """Return this description followed by the members of the other, under the name of this one.
 
         A collision pair or link without default collisions that both have is kept once, with the reason given here.
@@ -383,18 +392,17 @@ class SemanticRobotDescription(Element):
         """
         members = {name: getattr(self, name).extended(getattr(other, name)) for name in _MEMBERS}
         attributes = dict(self.extra_attributes)
-        return replace(
-            self,
+        return self.with_fields(
             **members,
             extra_elements=(*self.extra_elements, *other.extra_elements),
             extra_inside=(*self.extra_inside, *other.extra_inside),
             extra_attributes=tuple({**attributes, **dict(other.extra_attributes), **attributes}.items()),
         )
 
-    def normalized(self) -> SemanticRobotDescription:
+    def normalized(self) -> Self:
         """Return it with every collection sorted by name; a collision pair counts by its links in order.
 
         The members of a group stay in their order, and so do the two links of a pair.
         """
         members: dict[str, Any] = {name: sorted(getattr(self, name), key=spec.key) for name, spec in _MEMBERS.items()}
-        return replace(self, **members)
+        return self.with_fields(**members)
