@@ -25,6 +25,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.expand import XACRO
+from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import SRDF, URDF, Format, Rendering
 from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
@@ -57,6 +58,14 @@ class _Text(Substitution):  # type: ignore[misc]  # the launch package has no ty
 
     def perform(self, context: LaunchContext) -> str:
         return self._robot.compiled(context).texts[self._format.name]
+
+
+class _TextParameter(ParameterValue):  # type: ignore[misc]  # the launch_ros package has no types
+    """A text as a ROS parameter, evaluated anew each time; ParameterValue keeps its first value, in any launch."""
+
+    def evaluate(self, context: LaunchContext) -> str:
+        # Without a type, ROS would read the text as YAML.
+        return str(ParameterValue(self.value, value_type=str).evaluate(context))
 
 
 class _Compiled(NamedTuple):
@@ -123,9 +132,8 @@ class RobotDescription:
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
         self._compiled: _Compiled | None = None
         self.urdf, self.srdf = _Text(self, URDF), _Text(self, SRDF)
-        # Without a type, ROS would read the text as YAML.
-        self.description = {"robot_description": ParameterValue(self.urdf, value_type=str)}
-        self.semantic = {"robot_description_semantic": ParameterValue(self.srdf, value_type=str)}
+        self.description = {"robot_description": _TextParameter(self.urdf, value_type=str)}
+        self.semantic = {"robot_description_semantic": _TextParameter(self.srdf, value_type=str)}
 
     def _argument(self, parameter: ListedParameter) -> DeclareLaunchArgument:
         default = self._defaults[parameter.name]
@@ -211,15 +219,18 @@ class RobotDescription:
             )
 
     def _sets_of(self, variant: str | None) -> Mapping[str, str]:
-        """Return what a variant sets; ValueError for one that the spec does not have."""
+        """Return what a variant sets, or several (`a+b`); ValueError for one that the spec does not have."""
         variants = self._listing.variants
-        if variant is not None and variant not in variants:
-            from linkforge_compile.diagnostics.suggest import did_you_mean
+        sets: dict[str, str] = {}
+        for name in names_in_variant(variant, variants):
+            if name not in variants:
+                from linkforge_compile.diagnostics.suggest import did_you_mean
 
-            there_are = f"; its variants are {', '.join(variants)}" if variants else "; it declares no variants"
-            hint = did_you_mean(variant, variants) or there_are
-            raise ValueError(f"{self.spec} has no variant named '{variant}'{hint}")
-        return {} if variant is None else variants[variant]
+                there_are = f"; its variants are {', '.join(variants)}" if variants else "; it declares no variants"
+                hint = did_you_mean(name, variants) or there_are
+                raise ValueError(f"{self.spec} has no variant named '{name}'{hint}")
+            sets |= variants[name]
+        return sets
 
     def _variant_of(self, context: LaunchContext) -> str | None:
         return None if self._variant is None else str(perform_substitutions(context, self._variant)) or None

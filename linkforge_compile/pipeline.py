@@ -13,7 +13,7 @@ from linkforge_compile.checks import check
 from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.modules import NOT_JUDGED, VARIANTS_BEYOND_LIMIT
+from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     XACRO,
@@ -75,9 +75,10 @@ def compile_file(
 ) -> Compilation:
     """Compile a spec file; a required parameter without a value is an error.
 
-    `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults. `gazebo`
-    is the simulator, Gazebo Sim or Classic, whose limits are reported; give it to `render_urdf` as well. `output` is
-    the folder of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
+    `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults, or several
+    of them, `a+b`, of which the last one decides. `gazebo` is the simulator, Gazebo Sim or Classic, whose limits are
+    reported; give it to `render_urdf` as well. `output` is the folder of the URDF, from which relative paths of meshes
+    must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
@@ -269,7 +270,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         suppressions = loader.suppressions
     except BeyondLimitError as beyond:
         sink.abort(beyond)
-    if sink.has_errors or any(diagnostic.code is NOT_JUDGED for diagnostic in sink):
+    if sink.has_errors or any(diagnostic.code is NOT_CHECKED for diagnostic in sink):
         robot = None
     report = sink.sorted()
     if suppressions:

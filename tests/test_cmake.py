@@ -201,7 +201,7 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ),
     ],
 )
-def test_wrong_arguments_are_told_when_cmake_configures(tmp_path: Path, arguments: str, said: str):
+def test_cmake_configure_reports_wrong_arguments(tmp_path: Path, arguments: str, said: str):
     find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     run = script(tmp_path, f"{find}\nlinkforge_add_robot(arm.robot.yaml {arguments})", "-DLINKFORGE_EXECUTABLE=true")
     assert run.returncode != 0
@@ -226,7 +226,7 @@ def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
 
 
 @pytest.mark.parametrize("said", ["${none}", '"${none}"'])
-def test_an_empty_variable_says_nothing(tmp_path: Path, said: str):
+def test_an_empty_variable_has_no_effect(tmp_path: Path, said: str):
     find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     add = (
         f'linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} NAME "" TARGET "" INSTALL DESTINATION "")'
@@ -237,7 +237,7 @@ def test_an_empty_variable_says_nothing(tmp_path: Path, said: str):
     assert "arm.robot.yaml --installed-in" in rules
 
 
-def test_a_spec_that_is_not_there_is_told_when_cmake_configures_unless_the_build_makes_it(tmp_path: Path):
+def test_cmake_configure_reports_a_missing_spec_unless_the_build_makes_it(tmp_path: Path):
     find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     add = "linkforge_add_robot(amr.robot.yaml)"
     run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
@@ -248,7 +248,7 @@ def test_a_spec_that_is_not_there_is_told_when_cmake_configures_unless_the_build
     assert script(tmp_path, f"{find}\n{makes}\n{add}", "-DLINKFORGE_EXECUTABLE=true").returncode == 0
 
 
-def test_what_is_said_comes_to_the_command_as_it_was_said(tmp_path: Path):
+def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     echo = tmp_path / "echo words"
     echo.write_text("#!/bin/sh\nprintf '%s\\n' \"$@\"\ntouch arm.urdf\n")
     echo.chmod(0o755)
@@ -287,7 +287,7 @@ def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, ask
     assert (f"found 1 {__version__}" in run.stderr) is is_found
 
 
-def test_a_missing_command_is_told(tmp_path: Path):
+def test_a_missing_command_is_reported(tmp_path: Path):
     find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     run = script(tmp_path, f'set(ENV{{PATH}} "")\n{find}')
     assert run.returncode != 0

@@ -175,7 +175,7 @@ def keys_of(said: Said, field: str) -> frozenset[str]:
     return frozenset({keys}) if isinstance(keys, str) else keys
 
 
-def test_every_class_is_said_in_the_language():
+def test_every_class_has_a_form_in_the_language():
     assert {kind.__name__ for kind in CLASSES} == {kind.__name__ for kind in LANGUAGE}
 
 

@@ -35,7 +35,7 @@ def test_nothing_is_wrong_with_an_example(example: Path):
     assert not compile_file(example).diagnostics
 
 
-def test_an_example_compiles_to_the_files_beside_it(spec: Path, tmp_path: Path, update_golden: bool):
+def test_an_example_compiles_to_the_files_next_to_it(spec: Path, tmp_path: Path, update_golden: bool):
     """The golden files are what the command writes; renew them with --update-golden and read the diff."""
     folder = spec.parent if update_golden else tmp_path
     run = subprocess.run(
@@ -233,7 +233,7 @@ def test_a_standing_quadruped_has_its_feet_under_its_hips(height: float):
 
 @pytest.mark.parametrize("thumb", [True, False])
 @pytest.mark.parametrize("fingers", [1, 2, 3, 5])
-def test_a_hand_has_the_fingers_it_is_asked_for(fingers: int, thumb: bool):
+def test_a_hand_has_the_requested_fingers(fingers: int, thumb: bool):
     hand = compile_file(
         ROOT / "examples" / "08_hand" / "hand.robot.yaml", parameters={"fingers": fingers, "thumb": thumb}
     )

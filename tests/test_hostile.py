@@ -351,13 +351,13 @@ def test_a_thousand_modules_compile(tmp_path: Path):
     assert (tmp_path / "a.urdf").read_text().count("<joint ") == 2000
 
 
-def test_a_fault_in_every_round_of_a_for_is_told_once_and_counted(tmp_path: Path):
+def test_a_fault_in_every_round_of_a_for_is_reported_once_with_a_count(tmp_path: Path):
     told = refused(lambda _: HEAD + "  l_$(i): {for: {i: 2000}, inertial: {mass: $(-i - 1)}}\n", "LF5006", tmp_path)
     assert "more like this at the same place" in told
     assert told.count("[LF5006]") == 3
 
 
-def test_the_fault_of_25000_rounds_is_told_and_behind_it_that_there_are_more(tmp_path: Path):
+def test_the_fault_of_25000_rounds_is_reported_with_the_number_of_others(tmp_path: Path):
     rounds = "{for: {i: 25000}, inertial: {mass: $(1 / (i - i))}, visual: {sphere: $(-i - 1)}}"
     told = refused(lambda _: f"{HEAD}  l_$(i): {rounds}\n", "LF3125", tmp_path)
     assert re.findall(r"\[(LF\d+)\]", told) == ["LF3125", "LF3302"]

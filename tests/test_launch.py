@@ -1,14 +1,16 @@
-"""`linkforge_compile.launch`, under a stand-in for the packages of ROS 2 that it is for."""
+"""`linkforge_compile.launch` under the packages of ROS 2 that it is for, or stand-ins where there is no ROS."""
 
 import gc
 import importlib
+import importlib.util
 import logging
+import os
 import re
 import runpy
 import shutil
 import sys
 import weakref
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import NamedTuple
@@ -55,7 +57,8 @@ class Ros(NamedTuple):
 
 @pytest.fixture
 def ros(monkeypatch: pytest.MonkeyPatch) -> Iterator[Ros]:
-    monkeypatch.syspath_prepend(STAND_INS)
+    if importlib.util.find_spec("launch_ros") is None:
+        monkeypatch.syspath_prepend(STAND_INS)
     yield Ros(importlib.import_module("linkforge_compile.launch"), importlib.import_module("launch"))
     for name in [*sys.modules]:
         if name.partition(".")[0] in ROS or name == "linkforge_compile.launch":
@@ -71,10 +74,30 @@ def spec(tmp_path: Path) -> Path:
 
 def launched(ros: Ros, robot: object, /, **typed: str) -> object:
     """Return the context of a launch, behind the robot's arguments, with those that somebody typed."""
-    context = ros.launch.LaunchContext(**typed)
-    for argument in robot.arguments:
+    return launch_with(ros, robot.arguments, **typed)
+
+
+def launch_with(ros: Ros, arguments: Iterable[object], /, **typed: str) -> object:
+    context = ros.launch.LaunchContext()
+    context.launch_configurations.update(typed)
+    for argument in arguments:
         argument.execute(context)
     return context
+
+
+def parameter_of(context: object, parameters: object, name: str) -> str:
+    """Return the text of a parameter of a node, of which `parameters` are those that it was made with."""
+    utilities = importlib.import_module("launch_ros.utilities")
+    (values,) = utilities.evaluate_parameters(context, utilities.normalize_parameters(parameters))
+    return values[name]
+
+
+def robot_description_of(context: object, publisher: object) -> str:
+    """Return the parameter that a node of a launch file gets; ROS has no public attribute for it."""
+    (values,) = importlib.import_module("launch_ros.utilities").evaluate_parameters(
+        context, publisher._Node__parameters
+    )
+    return values["robot_description"]
 
 
 def box_of(urdf: str) -> str:
@@ -87,7 +110,7 @@ def test_every_parameter_is_a_launch_argument(ros: Ros, spec: Path):
     assert arguments["reach"].description == "From base to tip. (length, 0.1 m to 2 m)"
     assert arguments["reach"].default_value[0].text == "50 cm"
     assert (arguments["hardware"].description, arguments["hardware"].choices) == (
-        "What drives it. (string)",
+        "What drives it. (string). Valid choices are: ['mock', 'real']",
         ["mock", "real"],
     )
     assert arguments["axes"].choices == ["1", "2"]
@@ -136,13 +159,13 @@ def test_two_robots_in_one_launch_file_have_arguments_of_their_own(ros: Ros, spe
 def test_a_node_gets_texts_and_no_yaml(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
     context = launched(ros, robot)
-    urdf = robot.description["robot_description"].evaluate(context)
-    srdf = robot.semantic["robot_description_semantic"].evaluate(context)
+    urdf = parameter_of(context, [robot.description], "robot_description")
+    srdf = parameter_of(context, [robot.semantic], "robot_description_semantic")
     assert etree.fromstring(urdf.encode()).find("link").get("name") == "base"
     assert etree.fromstring(srdf.encode()).find("group").get("name") == "all"
 
 
-def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path):
+def test_a_fault_fails_the_launch_and_is_reported_at_its_place(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
     context = launched(ros, robot, reach="3 m")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
@@ -157,7 +180,9 @@ def test_a_fault_fails_the_launch_and_is_told_at_its_place(ros: Ros, spec: Path)
         ({"serial": "A1", "reach": 3}, "<launch file>:1:8: error: parameter 'reach'"),
     ],
 )
-def test_a_wrong_value_is_told_as_whoever_launches_says_it(ros: Ros, spec: Path, given: dict[str, object], said: str):
+def test_a_wrong_value_is_reported_in_the_form_of_a_launch_argument(
+    ros: Ros, spec: Path, given: dict[str, object], said: str
+):
     robot = ros.ours.RobotDescription(spec, given, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure) as caught:
@@ -184,12 +209,12 @@ def test_a_list_with_a_number_is_a_vector(ros: Ros, tmp_path: Path):
     assert box_of(robot.urdf.perform(launched(ros, robot, height="0.25"))) == "2 0.5 0.25"
 
 
-def test_a_value_that_no_launch_file_has_is_told_with_its_parameter(ros: Ros, spec: Path):
+def test_an_invalid_launch_value_is_reported_with_its_parameter(ros: Ros, spec: Path):
     with pytest.raises(TypeError, match=r"'reach' takes text, a number, .*; found {'a': 1}"):
         ros.ours.RobotDescription(spec, {"reach": {"a": 1}})
 
 
-def test_a_launch_compiles_once_and_logs_what_is_told(
+def test_a_launch_compiles_once_and_logs_diagnostics(
     ros: Ros, spec: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ):
     warned = SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}")
@@ -219,8 +244,17 @@ def test_a_launch_that_goes_on_meets_a_spec_as_it_is_now(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
     context = launched(ros, robot)
     assert 'name="A1"' in robot.urdf.perform(context)
+    assert 'name="A1"' in parameter_of(context, [robot.description], "robot_description")
     spec.write_text(SPEC.replace("name: $(serial)", "name: of-$(serial)"))
     assert 'name="of-A1"' in robot.urdf.perform(context)
+    assert 'name="of-A1"' in parameter_of(context, [robot.description], "robot_description")
+
+
+def test_each_launch_has_its_own_parameters(ros: Ros, spec: Path):
+    robot = ros.ours.RobotDescription(spec)
+    for serial in ("A1", "A2"):
+        context = launched(ros, robot, serial=serial)
+        assert f'name="{serial}"' in parameter_of(context, [robot.description], "robot_description")
 
 
 def test_a_launch_that_is_over_is_let_go(ros: Ros, spec: Path):
@@ -233,7 +267,7 @@ def test_a_launch_that_is_over_is_let_go(ros: Ros, spec: Path):
     assert over() is None
 
 
-def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
+def test_an_unknown_variant_is_reported_where_it_is_named(ros: Ros, spec: Path):
     with pytest.raises(ValueError, match=r"arm.robot.yaml has no variant named 'lnog'; did you mean 'long'\?$"):
         ros.ours.RobotDescription(spec, variant="lnog")
     with pytest.raises(ValueError, match=r"no variant named 'simulation'; its variants are long$"):
@@ -244,7 +278,7 @@ def test_a_variant_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Pa
         robot.urdf.perform(launched(ros, robot, size="logn"))
 
 
-def test_a_parameter_that_is_not_there_is_told_where_it_is_said(ros: Ros, spec: Path):
+def test_an_unknown_parameter_is_reported_where_it_is_set(ros: Ros, spec: Path):
     with pytest.raises(ValueError, match=r"arm.robot.yaml has no parameter named 'raech'; did you mean 'reach'\?$"):
         ros.ours.RobotDescription(
             spec, {"raech": importlib.import_module("launch.substitutions").LaunchConfiguration("r")}
@@ -260,7 +294,7 @@ def test_no_text_is_no_variant(ros: Ros, spec: Path):
     assert box_of(robot.urdf.perform(launched(ros, robot))).startswith("0.5 ")
 
 
-def test_an_argument_without_a_value_is_told_as_one_of_a_launch(ros: Ros, spec: Path):
+def test_an_argument_without_a_value_is_reported_as_a_launch_argument(ros: Ros, spec: Path):
     robot = ros.ours.RobotDescription(spec, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure, match=r"launch arguments that have no value: 'left_serial'; the 'arguments' of"):
@@ -275,19 +309,56 @@ def test_a_spec_that_cannot_be_read_stops_the_launch_file(ros: Ros, tmp_path: Pa
         ros.ours.RobotDescription(tmp_path / "hand.robot.yaml")
 
 
-def test_the_launch_file_of_the_manual_describes_its_robot(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    share = tmp_path / "share" / "arm_description"
-    (share / "robots").mkdir(parents=True)
-    (share / "robots" / "arm.robot.yaml").write_text(SPEC)
+IN_PROCESS, BY_COMMAND = re.findall(r"```python\n(.*?)```", (ROOT / "docs/builds.md").read_text("utf-8"), re.DOTALL)
+WARNED = SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}")
+
+
+@pytest.fixture
+def described(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder for a launch file of the manual, with its package, whose spec has a warning, and the command."""
+    robots, command = tmp_path / "share/arm_description/robots", tmp_path / "bin/linkforge"
+    for path, text in (
+        (robots / "arm.robot.yaml", WARNED),
+        (command, f'#!/bin/sh\nexec "{sys.executable}" -m linkforge_compile "$@"\n'),
+    ):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    command.chmod(0o755)
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    (text,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "builds.md").read_text("utf-8"), re.DOTALL)
-    (tmp_path / "view.launch.py").write_text(text)
-    file = runpy.run_path(str(tmp_path / "view.launch.py"))
+    monkeypatch.setenv("PATH", str(command.parent), prepend=os.pathsep)
+    monkeypatch.setenv("PYTHONPATH", str(ROOT), prepend=os.pathsep)
+    return tmp_path
+
+
+def described_by(ros: Ros, folder: Path, launch_file: str) -> str:
+    """Return the `robot_description` that a launch file gives robot_state_publisher."""
+    (folder / "view.launch.py").write_text(launch_file)
+    file = runpy.run_path(str(folder / "view.launch.py"))
     *arguments, publisher = file["generate_launch_description"]().entities
-    context = ros.launch.LaunchContext(serial="A1")
-    for argument in arguments:
-        argument.execute(context)
-    assert 'name="real"' in publisher.parameters[0]["robot_description"].evaluate(context)
+    return robot_description_of(launch_with(ros, arguments, serial="A1"), publisher)
+
+
+def test_the_launch_file_of_the_manual_describes_its_robot(ros: Ros, described: Path):
+    assert 'name="real"' in described_by(ros, described, IN_PROCESS)
+
+
+def test_the_command_of_the_manual_describes_a_robot_with_warnings(ros: Ros, described: Path):
+    assert 'name="A1"' in described_by(ros, described, BY_COMMAND)
+
+
+@pytest.mark.parametrize(("on_stderr", "is_described"), [("fail", False), ("warn", True), ("ignore", True)])
+def test_a_warning_fails_the_command_unless_it_is_told_otherwise(
+    ros: Ros, described: Path, on_stderr: str, is_described: bool
+):
+    spec = described / "share/arm_description/robots/arm.robot.yaml"
+    substitutions = importlib.import_module("launch.substitutions")
+    command = substitutions.Command(["linkforge compile serial:=A1 ", str(spec)], on_stderr=on_stderr)
+    context = ros.launch.LaunchContext()
+    if is_described:
+        assert 'name="A1"' in command.perform(context)
+    else:
+        with pytest.raises(substitutions.SubstitutionFailure, match=r"showed stderr output.*\s.*\s.*LF7002"):
+            command.perform(context)
 
 
 def test_the_launch_file_of_the_examples_describes_its_robot(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
@@ -297,9 +368,7 @@ def test_the_launch_file_of_the_examples_describes_its_robot(ros: Ros, tmp_path:
     file = runpy.run_path(str(share / "launch" / "view.launch.py"))
     *arguments, publisher, _, _ = file["generate_launch_description"]().entities
     assert [one.name for one in arguments] == ["servo", "stalk", "camera_rate"]
-    context = ros.launch.LaunchContext(servo="mx28", stalk="10 cm")
-    for argument in arguments:
-        argument.execute(context)
-    urdf = publisher.parameters[0]["robot_description"].evaluate(context)
+    context = launch_with(ros, arguments, servo="mx28", stalk="10 cm")
+    urdf = robot_description_of(context, publisher)
     assert '<origin xyz="0 -0.02 0.1"' in urdf
     assert 'effort="2.5"' in urdf

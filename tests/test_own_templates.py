@@ -28,7 +28,7 @@ def test_the_page_shows_the_files_of_the_example():
     ("templates", "outputs"),
     [("templates", ["joint_limits.yaml", "joints.md"]), ("collisions", ["two_link_arm.urdf"])],
 )
-def test_the_templates_make_the_files_beside_them(
+def test_the_templates_make_the_committed_files(
     templates: str, outputs: list[str], tmp_path: Path, update_golden: bool
 ):
     folder = EXAMPLE if update_golden else tmp_path

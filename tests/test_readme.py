@@ -39,7 +39,7 @@ def test_the_robot_of_the_readme_compiles_to_what_it_shows():
     assert render_urdf(compile_text(block("yaml")).result(), banner=banner) == block("xml")
 
 
-def test_the_mistakes_of_the_readme_are_told_as_it_shows():
+def test_the_mistakes_of_the_readme_are_reported_as_shown():
     spec = block("yaml")
     for right, wrong in (("collision:", "colision:"), ("child: rod", "child: rood"), ("effort: 2 N*m", "effort: 2 kg")):
         assert right in spec
@@ -53,5 +53,5 @@ def test_the_readme_names_every_unit():
 
 
 @pytest.mark.parametrize("counted", [*lines.ROBOTS, *lines.TWINS], ids=lambda counted: counted.name)
-def test_the_readme_says_how_many_lines_a_robot_takes(counted: lines.Robot | lines.Twin):
+def test_the_readme_states_the_lines_of_a_robot(counted: lines.Robot | lines.Twin):
     assert f"| {lines.of_xacro(counted)} | {lines.of_ours(counted)} |" in README

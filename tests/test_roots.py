@@ -70,7 +70,7 @@ def test_a_path_that_climbs_out_of_a_link_does_not_lie_above_the_link(tmp_path: 
     assert codes(compile_file(tmp_path / "mine" / "link" / ".." / "cell.robot.yaml")) == REFUSED
 
 
-def test_what_is_refused_says_where_it_leads_and_what_may_be_read(tmp_path: Path):
+def test_a_refused_path_is_shown_with_its_target_and_readable_folders(tmp_path: Path):
     spec = using(tmp_path / "cell" / "cell.robot.yaml", "../part.robot.yaml")
     [diagnostic] = compile_file(spec).diagnostics
     assert (diagnostic.span.line, diagnostic.span.column) == (4, 20)
@@ -146,7 +146,7 @@ MESH = "{visual: {mesh: 'CLOSED/x.stl'}}"
     ],
 )
 @pytest.mark.parametrize("allow_outside", [False, True])
-def test_what_may_not_be_looked_at_is_told_at_its_place(section: str, code: str, allow_outside: bool, closed: Path):
+def test_what_may_not_be_read_is_reported_at_its_place(section: str, code: str, allow_outside: bool, closed: Path):
     """The rest is told as ever."""
     text = f"linkforge: 1\nname: cell\nbogus: 1\n{section}\n".replace("CLOSED", str(closed))
     spec = written(closed.parent / "cell" / "cell.robot.yaml", text)
@@ -167,7 +167,7 @@ def test_what_is_refused_is_not_looked_for(tmp_path: Path):
         assert codes(check_file(spec)) == REFUSED
 
 
-def test_a_spec_in_a_folder_that_may_not_be_looked_at_is_told_itself(closed: Path):
+def test_a_spec_in_an_unsearchable_folder_is_reported(closed: Path):
     """And no `package.xml` beside it, for which nobody asked."""
     [unreadable] = check_file(closed / "arm.robot.yaml").diagnostics
     assert str(unreadable).endswith(f"'{closed}/arm.robot.yaml' cannot be read: permission denied [LF3002]")
@@ -320,7 +320,7 @@ def test_an_installation_may_be_read_wherever_its_links_lead(tmp_path: Path, mon
     assert codes(compile_file(spec)) == REFUSED
 
 
-def test_a_spec_that_is_reached_by_a_link_reads_beside_the_link_and_beside_itself(tmp_path: Path):
+def test_a_linked_spec_reads_files_next_to_the_link_and_to_itself(tmp_path: Path):
     spec = using(tmp_path / "src" / "cell.robot.yaml", "part.robot.yaml")
     written(tmp_path / "src" / "part.robot.yaml")
     installed = tmp_path / "share"

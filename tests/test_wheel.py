@@ -27,7 +27,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_the_wheel_is_built_with_what_the_project_says_it_takes(wheel: Path, tmp_path: Path):
+def test_the_wheel_is_built_with_the_declared_requirements(wheel: Path, tmp_path: Path):
     build = (*PIP, "wheel", "--no-deps", "--wheel-dir", str(tmp_path), str(ROOT))
     subprocess.run(build, check=True, capture_output=True, timeout=300)
     (isolated,) = tmp_path.glob("*.whl")

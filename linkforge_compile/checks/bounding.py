@@ -88,7 +88,7 @@ def bounding_volume(link: Link, measure: MeasureMesh) -> BoundingVolume | None:
 def primitive_volume(shapes: Shapes) -> float | None:
     """Return the sum of the volumes of shapes [m³]; None without any, and for meshes."""
     volumes = [shape.geometry.volume() for shape in shapes if not isinstance(shape.geometry, Mesh)]
-    return math.fsum(volumes) if volumes and len(volumes) == len(shapes) else None
+    return sum(volumes) if volumes and len(volumes) == len(shapes) else None
 
 
 def _box_of(geometry: Geometry, pose: Transform, measure: MeasureMesh) -> BoundingBox | None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from linkforge_compile.checks.bounding import MESH_SLACK, primitive_volume
 from linkforge_compile.checks.mesh_files import RobotMeshes
+from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.robot import Robot
@@ -129,15 +130,18 @@ def check_density(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """
     for link, inertial in _bodies(robot):
         bounds = meshes.bounds(link)
-        volumes = [volume for shapes in (link.visuals, link.collisions) if (volume := primitive_volume(shapes))]
+        measured = [primitive_volume(shapes) for shapes in (link.visuals, link.collisions)]
+        volumes = [volume for volume in measured if volume is not None]
         least, slack = min(volumes, default=None), 1.0
         if least is None and bounds and bounds.has_meshes:
-            least, slack = bounds.volume, MESH_SLACK
+            least, slack = bounds.volume or None, MESH_SLACK
+        # The volume of a shape below 1e-108 m is 0.
+        in_box = math.inf if least == 0 else inertial.mass / bounds.volume if bounds and bounds.volume else 0.0
         facts = {"link": link.name, "mass": f"{inertial.mass:g}"}
         if least and (density := inertial.mass / least) < LIGHTEST / slack**2:
             yield LIGHT_LINK.at(link.source, "inertial", "mass", notes=(), density=f"{density:.2g}", **facts)
-        elif bounds and bounds.volume and (density := inertial.mass / bounds.volume) > DENSEST * bounds.slack:
-            yield DENSE_LINK.at(link.source, "inertial", "mass", notes=(), density=f"{density:.2g}", **facts)
+        elif bounds and in_box > DENSEST * bounds.slack:
+            yield DENSE_LINK.at(link.source, "inertial", "mass", notes=(), density=f"{in_box:.2g}", **facts)
 
 
 def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
@@ -152,8 +156,9 @@ def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnosti
     for link, inertial in _bodies_with_a_tensor(robot):
         moment = (inertial.inertia.ixx + inertial.inertia.iyy + inertial.inertia.izz) / 2
         bounds = meshes.bounds(link)
-        if bounds and bounds.box.diagonal:
-            part = moment / (inertial.mass * bounds.box.diagonal**2 / 12)
+        boxed = inertial.mass * bounds.box.diagonal * bounds.box.diagonal / 12 if bounds else 0.0
+        if bounds and boxed:
+            part = moment / boxed
             if part > LARGEST * bounds.slack:
                 code, hint = LARGE_INERTIA, _unit_hint(part)
                 yield code.at(link.source, "inertial", "inertia", link=link.name, factor=_power(part), hint=hint)
@@ -205,8 +210,13 @@ def check_signs_of_products(robot: Robot, _: UnresolvedNames) -> Iterator[Diagno
         tensor = inertial.inertia
         if not shapes or not any(_products(tensor)) or any(isinstance(geometry, Mesh) for geometry, _ in shapes):
             continue
-        computed = inertial_of_shapes(shapes, mass=inertial.mass).inertia
-        if _has_negated_products(rotated(tensor, inertial.origin.rpy), computed):
+        try:
+            computed = inertial_of_shapes(shapes, mass=inertial.mass).inertia
+            is_turned = _has_negated_products(rotated(tensor, inertial.origin.rpy), computed)
+        except RobotModelError:
+            # The powers of 1e200 m and 1e-200 m are beyond a double.
+            continue
+        if is_turned:
             yield TURNED_PRODUCTS.at(link.source, "inertial", "inertia", link=link.name)
 
 

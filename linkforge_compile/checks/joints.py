@@ -206,7 +206,7 @@ def check_joint_range(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
         if None in (limits.lower, limits.upper):
             if (limits.lower or 0.0) >= (limits.upper or 0.0):
                 missing = " and ".join(side for side in ("lower", "upper") if getattr(limits, side) is None)
-                yield NO_RANGE.at(joint.source, "limits", joint=joint.name, unsaid=missing)
+                yield NO_RANGE.at(joint.source, "limits", joint=joint.name, missing=missing)
         elif limits.lower == limits.upper:
             found = f"{limits.lower:.6g}"
             yield EMPTY_RANGE.at(joint.source, "limits", "upper", joint=joint.name, found=found)
@@ -225,7 +225,7 @@ def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
         written = [side for side in ("lower", "upper") if getattr(limits, side) is not None]
         if any(getattr(limits, side) for side in written):
             yield RANGE_OF_ENDLESS_JOINT.at(
-                joint.source, "limits", written[0], joint=joint.name, said=" and ".join(written)
+                joint.source, "limits", written[0], joint=joint.name, limits=" and ".join(written)
             )
 
 
@@ -274,7 +274,7 @@ def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
             si=si,
             unit=unit,
             units=units,
-            meant=in_other_unit,
+            expected=in_other_unit,
         )
 
 

@@ -1,4 +1,4 @@
-"""Compiles a spec, and writes its outputs or compares them with existing files."""
+"""Compiles a spec, and renders its outputs or compares them with existing files."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.options import compile_spec, format_options_of
-from linkforge_compile.cli.reports import print_status, report
-from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import MISSING_OUTPUT, STALE_OUTPUT
 from linkforge_compile.formats import Rendering, format_named, render_documents
@@ -39,13 +37,30 @@ class Output(NamedTuple):
     text: str
 
 
+class Build(NamedTuple):
+    """The outputs of one spec in a variant (None: the defaults), the files that they were made from, and diagnostics.
+
+    There are no outputs if one of them cannot be made.
+    """
+
+    spec: str
+    variant: str | None
+    outputs: tuple[Output, ...]
+    sources: tuple[Path, ...]
+    diagnostics: tuple[Diagnostic, ...]
+
+
 class BuildRequest(NamedTuple):
-    """What to build: a spec with assignments to its parameters, the targets, and the user's templates if any."""
+    """What to build: a spec with assignments to its parameters, the targets, and the user's templates if any.
+
+    `variant` is the one of the spec, None for the defaults.
+    """
 
     spec: str
     assignments: list[str]
     targets: Targets
     templates: TemplateFolder | None = None
+    variant: str | None = None
 
     @property
     def template_files(self) -> tuple[Path, ...]:
@@ -77,32 +92,20 @@ def _place(target: Path, name: str) -> Path:
 def compile_request(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec of a request with the options of `linkforge compile`."""
     folder = request.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
-    return compile_spec(request.spec, request.assignments, arguments, output=folder, formats=request.targets.formats)
+    formats, variant = request.targets.formats, request.variant
+    spec, assignments = request.spec, request.assignments
+    return compile_spec(spec, assignments, arguments, output=folder, formats=formats, variant=variant)
 
 
-def write_outputs(request: BuildRequest, compilation: Compilation, arguments: argparse.Namespace) -> int:
-    """Report on a compilation, and render and write its outputs, or compare them; return the exit code."""
+def render_request(request: BuildRequest, compilation: Compilation, arguments: argparse.Namespace) -> Build:
+    """Render the outputs of a compilation, and compare them with files for `--check`."""
     outputs, faults = ((), ()) if compilation.robot is None else _render(compilation.robot, request, arguments)
-    sources = (*compilation.files, *request.template_files)
-    if outputs:
-        from linkforge_compile.cli.output import refuse_to_replace
-
-        refuse_to_replace(sources, (*(output.path for output in outputs), file_to_write(arguments.depfile)))
-    stale = _find_stale(outputs, request, compilation.robot) if arguments.check else ()
     diagnostics = compilation.diagnostics
     if faults:
         diagnostics = tuple(sorted((*diagnostics, *faults), key=lambda one: one.order))
-    if report((*diagnostics, *stale), arguments) or not outputs:
-        return FAULTY_SPEC
-    if arguments.depfile is not None:
-        # A build system prints its own status, and colcon shows any output on standard error as a warning.
-        _write((*outputs, _depfile(outputs, sources, arguments.depfile)))
-        return OK
-    written = frozenset() if arguments.check else _write(outputs)
-    for path, _ in outputs:
-        if path is not None:
-            print_status(f"wrote {path}" if path in written else f"{path} is up to date", arguments)
-    return OK
+    stale = tuple(_find_stale(outputs, request, compilation.robot)) if arguments.check else ()
+    sources = (*compilation.files, *request.template_files)
+    return Build(request.spec, request.variant, outputs, sources, (*diagnostics, *stale))
 
 
 def _render(
@@ -187,18 +190,3 @@ def _quote(line: str | None) -> str:
     if not line:
         return "nothing"
     return f"'{line if len(line) <= _LONGEST_QUOTE else line[:_LONGEST_QUOTE] + '…'}'"
-
-
-def _write(outputs: Sequence[Output]) -> frozenset[Path]:
-    """Write all outputs; return the files that were written, without those that are up to date."""
-    from linkforge_compile.cli.output import write_changed
-
-    texts = {output.path: output.text for output in outputs if output.path is not None}
-    return write_changed(texts, next((output.text for output in outputs if output.path is None), None))
-
-
-def _depfile(outputs: Sequence[Output], inputs: Sequence[Path], name: str) -> Output:
-    from linkforge_compile.cli.output import inputs_of, make_rules
-
-    targets = [output.path for output in outputs if output.path is not None]
-    return Output(file_to_write(name), make_rules(targets, inputs_of(inputs)))

@@ -16,6 +16,8 @@ from linkforge_compile.cli import INTERNAL_FAULT, INTERRUPTED, OK, WRONG_USAGE, 
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.cli.options import Parser
+
 COMMANDS = {
     "init": "create a folder for a new robot, with a first spec and files for editors, git and builds",
     "compile": "compile a spec to URDF and SRDF",
@@ -38,6 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command, with the process's own arguments for None, and return its exit code."""
     words = sys.argv[1:] if arguments is None else list(arguments)
     if arguments is None:
+        _require_utf8()
         # In a process of our own almost nothing becomes cyclic garbage; looking for it takes a quarter of a long
         # compile, and looking once more at exit takes half of the time that Python needs to end.
         gc.set_threshold(100_000, 50)
@@ -63,6 +66,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _report_usage_error(_shorten(" ".join(words)), reason)
 
 
+def _require_utf8() -> None:
+    """Start this process again in Python's UTF-8 mode where names of files would be ASCII (PEP 540)."""
+    # As under LC_ALL=C with PYTHONUTF8=0: `é.robot.yaml` would be another name in outputs, and `use: é.yaml` no file.
+    if sys.getfilesystemencoding() == "ascii":
+        os.execv(sys.executable, [sys.executable, "-X", "utf8", *sys.orig_argv[1:]])
+
+
 def _run(words: list[str]) -> int:
     if not words or words[0] not in COMMANDS:
         return _run_without_command(words)
@@ -73,7 +83,7 @@ def _run(words: list[str]) -> int:
     command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
     parser = _make_parser(f"linkforge {name}", COMMANDS[name], command.add_arguments)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as with ROS's tools.
-    arguments = parser.parse_intermixed_args(rest)
+    arguments = parser.parse_words(rest)
     try:
         code: int = command.run(arguments)
     except UsageError as error:
@@ -113,15 +123,16 @@ def _run_without_command(words: list[str]) -> int:
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], COMMANDS)}")
 
 
-def _make_parser(
-    program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], object]
-) -> argparse.ArgumentParser:
+def _make_parser(program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], object]) -> Parser:
     from argparse import RawDescriptionHelpFormatter
 
     from linkforge_compile.cli.options import Parser, StoreOnce
 
     description = f"{summary[0].upper()}{summary[1:]}."
-    parser = Parser(prog=program, description=description, formatter_class=RawDescriptionHelpFormatter)
+    # Without abbreviations: a script that writes `--form` would break with the next option of that beginning.
+    parser = Parser(
+        prog=program, description=description, formatter_class=RawDescriptionHelpFormatter, allow_abbrev=False
+    )
     parser.register("action", None, StoreOnce)
     add_arguments(parser)
     return parser

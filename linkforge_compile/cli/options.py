@@ -22,12 +22,29 @@ STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
 
 
+_POSITIONAL = "\0"
+"""Marks a word as positional; no word of a command line can contain it."""
+
+
 class Parser(argparse.ArgumentParser):
     """Parses the arguments of one command; its errors cannot send control characters to a terminal."""
 
+    def parse_words(self, words: Sequence[str]) -> argparse.Namespace:
+        """Parse options and positional words in any order; what comes after `--` is positional."""
+        # Python 3.11 parses intermixed words twice and forgets the `--` in between.
+        end = words.index("--") if "--" in words else len(words)
+        marked = [_POSITIONAL + word if word.startswith("-") and word != "-" else word for word in words[end + 1 :]]
+        arguments = self.parse_intermixed_args([*words[:end], *words[end : end + 1], *marked])
+        for name, value in vars(arguments).items():
+            if isinstance(value, str):
+                setattr(arguments, name, value.removeprefix(_POSITIONAL))
+            elif isinstance(value, list):
+                value[:] = [word.removeprefix(_POSITIONAL) if isinstance(word, str) else word for word in value]
+        return arguments
+
     def error(self, message: str) -> NoReturn:
         # The message quotes words, which a script may have taken from names of files.
-        super().error(on_one_line(message))
+        super().error(on_one_line(message.replace(_POSITIONAL, "")))
 
 
 class StoreOnce(argparse.Action):
@@ -52,14 +69,20 @@ def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
 
 
-def add_spec_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that choose how a spec is compiled."""
+def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = "") -> None:
+    """Add the options that choose how a spec is compiled.
+
+    With `variants_help`, `--variant` may be given several times, and `variants` of the arguments is their list.
+    """
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
-    parser.add_argument(
-        "--variant",
-        metavar="NAME",
-        help="the variant of the spec whose values replace the defaults; -p replaces those of the variant",
-    )
+    about = "the variant of the spec whose values replace the defaults, or several, sim+lab, of which the last one"
+    about += " decides; -p replaces those of a variant"
+    if variants_help:
+        help_ = f"{about}; {variants_help}"
+        parser.add_argument("--variant", metavar="NAME", dest="variants", action="append", default=[], help=help_)
+        parser.set_defaults(variant=None)
+    else:
+        parser.add_argument("--variant", metavar="NAME", help=about)
     add_package_option(parser)
     add_outside_option(parser)
     for option in declared_options():
@@ -151,26 +174,29 @@ def compile_spec(
     output: Path | None = None,
     text: str | None = None,
     formats: tuple[str, ...] = (),
+    variant: str | None = None,
 ) -> Compilation:
     """Compile a spec with the options of `add_spec_options`.
 
-    `output` is the folder of the documents, None if unknown. `text` is the content of a spec that was read already,
-    because it can be read only once. `formats` are the requested ones.
+    `variant` is the one where the options may list several. `output` is the folder of the documents, None if unknown.
+    `text` is the content of a spec that was read already, because it can be read only once. `formats` are the
+    requested ones.
     """
     from linkforge_compile.pipeline import compile_path, compile_source
 
     settings = settings_of(assignments, arguments)._replace(output=output, formats=formats)
+    settings = settings if variant is None else settings._replace(variant=variant)
     if spec == "-" or text is not None:
         text = read_stdin() if text is None else text
         return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
     return compile_path(spec, settings)
 
 
-def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace) -> Compilation:
-    """Check a spec with the options of `add_spec_options`."""
+def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace, variant: str | None) -> Compilation:
+    """Check a spec, in a variant, with the other options of `add_spec_options`."""
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = check_settings_of(assignments, arguments)
+    settings = check_settings_of(assignments, arguments)._replace(variant=variant)
     if spec == "-":
         return compile_source(read_stdin(), STDIN, Path.cwd(), settings)
     return compile_path(spec, settings)

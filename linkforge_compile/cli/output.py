@@ -97,6 +97,8 @@ def write_changed(texts: Mapping[Path, str], stdout: str | None = None) -> froze
 def resolve_output(path: Path) -> Path:
     """Return the file that writing to a path replaces: of a symbolic link, the file it leads to."""
     target = real_path(path)
+    if target is not None and not exists(Path(target)) and exists(path):
+        return path  # a pipe such as /dev/stderr or >(…), which the system names `pipe:[42]`
     # What is still a link is part of a loop.
     if target is None or os.path.islink(target):  # noqa: PTH114 as in `roots`
         what = f"'{path}' is a link that leads to itself, or that may not be followed"

@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from time import monotonic
+from typing import TYPE_CHECKING, TextIO, TypeVar
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics import Code, Diagnostic, Severity
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 
 PATIENCE = 3.0
 """Time until `progress_after` prints its message [s]."""
+
+PROGRESS_INTERVAL = 2.0
+"""Time between two messages of `progress` [s]."""
+
+_Item = TypeVar("_Item")
 
 _BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
 
@@ -128,9 +134,14 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
         case "sarif":
             from linkforge_compile._version import __version__
             from linkforge_compile.diagnostics.render_forms import render_sarif
+            from linkforge_compile.resources import manual_folder
 
             return render_sarif(
-                diagnostics, root=root, version=__version__, manual=lambda code: manual_page(code.id, styled=False)
+                diagnostics,
+                root=root,
+                version=__version__,
+                manual=lambda code: manual_page(code.id, styled=False),
+                pages=manual_folder(),
             )
     return _format_text(diagnostics, arguments.color)
 
@@ -186,6 +197,20 @@ def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
+
+
+def progress(items: Sequence[_Item], done: str, arguments: argparse.Namespace) -> Iterator[_Item]:
+    """Yield items, and print each PROGRESS_INTERVAL how many of them are done, such as "compiled 12 of 30 specs".
+
+    Nothing is printed for a build system, which prints its own status.
+    """
+    last = monotonic()
+    for number, item in enumerate(items):
+        if number and monotonic() - last > PROGRESS_INTERVAL:
+            last = monotonic()
+            if arguments.depfile is None:
+                print_status(f"{done} {number} of {len(items)} specs", arguments)
+        yield item
 
 
 def _parse_codes(text: str) -> list[str]:

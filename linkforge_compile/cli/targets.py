@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import argparse
 
 _SPEC_ENDINGS = (".yaml", ".yml")
-_STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1")
+_STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of standard output; as a file it could not be resolved if it is a pipe, and would be replaced if it is one."""
 
 
@@ -58,7 +58,12 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
     names = [one.name for one in formats.FORMATS]
     about = "; ".join(f"{one.name}: {one.description}" for one in formats.FORMATS)
     parser.add_argument(
-        "--format", choices=names, help=f"only this one (default on standard output: {names[0]}); {about}"
+        "--format",
+        choices=names,
+        dest="formats",
+        action="append",
+        default=[],
+        help=f"only this one, once more for another one (default on standard output: {names[0]}); {about}",
     )
 
 
@@ -76,20 +81,35 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def targets_of(spec: str, outputs: Sequence[str], chosen: str | None) -> Targets:
-    """Return the target of each format of a spec; UsageError for outputs that contradict each other."""
+def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = (), variant: str = "") -> Targets:
+    """Return the target of each format of a spec; UsageError for outputs that contradict each other.
+
+    `chosen` are the formats of `--format`; without it, the outputs decide. `variant` is part of the names in a folder.
+    """
     if "" in outputs:
         raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
-        return Targets({chosen or default_format().name: None})
+        return Targets({_only(chosen) or default_format().name: None})
     if len(outputs) > 1:
-        return Targets(_several(outputs, chosen))
+        return Targets(_several(outputs, _only(chosen)))
     (output,) = outputs
-    if _is_file(output, _file_endings()):
-        return Targets({_format_of_file(output, chosen): Path(output)})
-    folder, name = Path(output), name_of(spec)
-    written = [one for one in formats.FORMATS if (one.name == chosen if chosen else one.is_default)]
-    return Targets({one.name: folder / f"{name}{one.suffix}" for one in written}, is_requested=chosen is not None)
+    if not is_folder_of_outputs(output):
+        return Targets({_format_of_file(output, _only(chosen)): Path(output)})
+    folder, name = Path(output), "_".join(filter(None, (name_of(spec), variant)))
+    written = [one for one in formats.FORMATS if (one.name in chosen if chosen else one.is_default)]
+    return Targets({one.name: folder / f"{name}{one.suffix}" for one in written}, is_requested=bool(chosen))
+
+
+def is_folder_of_outputs(output: str) -> bool:
+    """Whether `-o` names a folder; UsageError for a file of another kind than outputs are."""
+    return file_to_write(output) is not None and not _is_file(output, _file_endings())
+
+
+def _only(chosen: Sequence[str]) -> str | None:
+    """Return the one format of `--format`, None for none; UsageError for several."""
+    if len(set(chosen)) > 1:
+        raise UsageError(f"several --format go with -o FOLDER/, found {' and '.join(chosen)}")
+    return chosen[0] if chosen else None
 
 
 def default_format() -> formats.Format:

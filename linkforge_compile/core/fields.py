@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, MISSING, dataclass, fields, replace
+from dataclasses import KW_ONLY, MISSING, dataclass, field, fields, replace
 from enum import StrEnum
 from functools import cache
 from types import NoneType
@@ -54,7 +54,7 @@ class Spec:
     `xml` is an XPath from the element in XML, `@lower` or `mass/@value`: where none is given, the attribute or child
     element of the field's name; empty where the value has no place of its own.
     `example` is what to write where the language requires the field, by motion if that matters; empty where it does
-    not require it.
+    not require it. `is_required_in_urdf` is whether readers of URDF refuse the element without it.
 
     `field_specs` fills in the rest. `implied` is the value of a field that is not written: the default of its class,
     None for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
@@ -63,6 +63,7 @@ class Spec:
     key: str | None = None
     xml: str | None = None
     example: str | Mapping[Motion, str] = ""
+    is_required_in_urdf: bool = field(default=False, kw_only=True)
     implied: Any = None  # a value of the field's own type
     may_be_none: bool = False
     container: type | None = None
@@ -86,7 +87,6 @@ class Number(Spec):
     stand_in: float | None = None
     is_whole: bool = False
     may_be_far: bool = False
-    is_required_in_urdf: bool = False
 
 
 @dataclass(frozen=True)
@@ -172,10 +172,14 @@ class Parameters(Spec):
     """A mapping whose names and texts the format does not know, such as what a plugin reads."""
 
 
+_TUPLES = (Vector, Colour)
+
+
 class _Described(NamedTuple):
     specs: Mapping[str, Spec]
     numbers: Mapping[str, Number]
     containers: Mapping[str, type]
+    tuples: Mapping[str, type]
 
 
 def field_specs(kind: type) -> Mapping[str, Spec]:
@@ -193,6 +197,11 @@ def container_fields(kind: type) -> Mapping[str, type]:
     return _describe(kind).containers
 
 
+def tuple_fields(kind: type) -> Mapping[str, type]:
+    """Return the class, Vector3 or Color, for each field of a model class that holds a few numbers in one."""
+    return _describe(kind).tuples
+
+
 @cache  # not on the public functions: for mypy, a class whose instances define `__hash__` is not hashable itself
 def _describe(kind: type) -> _Described:
     defaults = {field.name: field.default for field in fields(kind) if field.default is not MISSING}
@@ -204,7 +213,8 @@ def _describe(kind: type) -> _Described:
             specs[name] = _complete(spec, name, hint.__origin__, defaults.get(name))
     numbers = {name: spec for name, spec in specs.items() if isinstance(spec, Number)}
     containers = {name: container for name, hint in hints.items() if (container := _container(hint))}
-    return _Described(specs, numbers, containers)
+    tuples = {name: _classes(hints[name].__origin__)[0] for name, spec in specs.items() if isinstance(spec, _TUPLES)}
+    return _Described(specs, numbers, containers, tuples)
 
 
 def _container(hint: Any) -> type | None:
@@ -224,8 +234,13 @@ def _complete(spec: Spec, name: str, annotation: Any, default: object) -> Spec:
     )
     if not isinstance(spec, Child):
         return replace(spec, xml=f"@{name}" if spec.xml is None else spec.xml)
-    kinds = spec.kinds or tuple(kind for kind in get_args(annotation) or (annotation,) if kind is not NoneType)
+    kinds = spec.kinds or _classes(annotation)
     return replace(spec, kinds=kinds, xml=getattr(kinds[0], "TAG", name) if spec.xml is None else spec.xml)
+
+
+def _classes(annotation: Any) -> tuple[type, ...]:
+    """Return the classes of a union, or the only one; without None."""
+    return tuple(kind for kind in get_args(annotation) or (annotation,) if kind is not NoneType)
 
 
 def tags_with_text(kind: type) -> dict[str, str]:

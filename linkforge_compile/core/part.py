@@ -17,6 +17,7 @@ from linkforge_compile.core.fields import (
     check_numbers,
     container_fields,
     field_specs,
+    tuple_fields,
 )
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced, SourceRef
@@ -122,7 +123,7 @@ class WithExtras(Part):
     extra_elements: Sequence[str] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        """Make tuples of sequences and FrozenMaps of mappings, all the way down; then check the values."""
+        """Make tuples of sequences, FrozenMaps of mappings and vectors of lists of numbers; then check the values."""
         if self.extra_attributes is not _NOTHING:
             set_field(self, "extra_attributes", attribute_pairs(self.extra_attributes))
         for name, container in container_fields(type(self)).items():
@@ -131,6 +132,9 @@ class WithExtras(Part):
                 set_field(self, name, frozen(FrozenMap(value)))
             elif not isinstance(value, tuple):
                 set_field(self, name, tuple(value))
+        for name, kind in tuple_fields(type(self)).items():
+            if isinstance(value := getattr(self, name), list | tuple):
+                set_field(self, name, kind(*value))
         self._check()
 
     def _check(self) -> None:

@@ -183,6 +183,8 @@ def _masses(volumes: Sequence[float], mass: float | None, density: float | None)
         total = _total(volumes)
         if total <= 0:
             raise _out_of_range("volume", "must be above 0 m³ to compute an inertia", total)
+        if total == math.inf:
+            raise _out_of_range("volume", "must be finite to compute an inertia", total)
         return [mass * (volume / total) for volume in volumes]
     if density is not None and mass is None:
         if density <= 0:

@@ -96,16 +96,16 @@ def _github_property(text: str) -> str:
 
 
 def render_sarif(
-    diagnostics: Iterable[Diagnostic], *, root: Path, version: str, manual: Callable[[Code], str] | None = None
+    diagnostics: Iterable[Diagnostic], *, root: Path, version: str, manual: Callable[[Code], str], pages: Path
 ) -> str:
     """Return a log of one run; paths under `root`, the folder of the repository, are relative to it.
 
-    `version` is that of linkforge, and `manual` returns the page of a code in Markdown.
+    `version` is that of linkforge. `manual` returns the page of a code in Markdown, and `pages` is the folder of all.
     """
     diagnostics = tuple(diagnostics)
     codes = sorted({one.code.id: one.code for one in diagnostics}.values(), key=lambda code: code.id)
     indexes = {code.id: index for index, code in enumerate(codes)}
-    rules = [_sarif_rule(code, manual) for code in codes]
+    rules = [_sarif_rule(code, manual(code), pages) for code in codes]
     run = {
         "tool": {"driver": {"name": "linkforge", "version": version, "rules": rules}},
         # The default would be UTF-16 code units.
@@ -117,11 +117,15 @@ def render_sarif(
     return json.dumps(log, ensure_ascii=False, indent=2) + "\n"
 
 
-def _sarif_rule(code: Code, manual: Callable[[Code], str] | None) -> dict[str, object]:
+def _sarif_rule(code: Code, page: str, pages: Path) -> dict[str, object]:
+    # The paragraph below the heading explains the code.
+    paragraphs = [" ".join(paragraph.split()) for paragraph in page.split("\n\n")]
     return {
         "id": code.id,
         "shortDescription": {"text": code.title},
-        "help": {"text": code.help, "markdown": manual(code)} if manual else {"text": code.help},
+        "fullDescription": {"text": paragraphs[1] if len(paragraphs) > 1 else code.title},
+        "help": {"text": code.help, "markdown": page},
+        "helpUri": (pages / f"{code.id}.md").as_uri(),
         "defaultConfiguration": {"level": code.severity.value},
     }
 

@@ -105,6 +105,14 @@ def _faults(comment: Suppression, used: Collection[tuple[str, int, str]], is_who
             yield NOTHING_TO_IGNORE.at(span, code=code, line=comment.line)
 
 
+def without_repeats(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return diagnostics of several specs, each once: specs that use the same module repeat those of the module."""
+    first: dict[str, Diagnostic] = {}
+    for one in diagnostics:
+        first.setdefault(str(one), one)
+    return tuple(first.values())
+
+
 def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
     """Return what any of the runs over a spec reported, in reading order, with a note if only some of them did.
 

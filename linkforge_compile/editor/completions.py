@@ -211,7 +211,8 @@ class SpecPaths:
 
     def entries_from(self, folder: str) -> list[Json]:
         """Return the completions for entries that use a spec, in a file in the folder."""
-        return [self._entries_below(above, steps_up) for above, steps_up, _ in _ways_up(folder)]
+        ways = _ways_up(folder)
+        return [self._entries_below(above, steps_up) for above, steps_up, _ in ways if self._specs_below(above)]
 
     def paths_from(self, folder: str, left_out: Collection[str]) -> Schema:
         """Return the completion of a path in a file in the folder, with each other spec once; {} for none."""

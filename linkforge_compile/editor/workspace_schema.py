@@ -61,7 +61,8 @@ def workspace_schema(vocabularies: Sequence[Vocabulary]) -> Schema:
         definitions |= completions.definitions
     return {
         **whole,
-        "allOf": rules,
+        # JSON Schema has no empty `allOf`. There are no files where all are parts that include each other.
+        **({"allOf": rules} if rules else {}),
         "definitions": {**language, **modules.definitions, **parts.definitions, **definitions},
     }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from linkforge_compile.expressions import Value
 
 COMMAND_LINE = "<command line>"
+
+_MOST_LISTED = 8
 
 
 class Unset(Enum):
@@ -90,36 +92,29 @@ def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
 def arguments_from_values(values: Mapping[str, object]) -> Arguments:
     """Read Python values; text is read as on the command line, None sets nothing.
 
-    If all of them are CliArguments, they are reported as the other program spells them. Raises TypeError for a value
-    that no spec can hold.
+    A CliArgument is reported as the other program spells it. Raises TypeError for a value that no spec can hold.
     """
-    if not values:
-        return Arguments(folder=Path(), as_text=True, from_python=True)
-    cli_arguments = {name: value for name, value in values.items() if isinstance(value, CliArgument)}
-    if len(cli_arguments) == len(values):
-        return _from_cli_arguments(cli_arguments)
-    from linkforge_compile.expand.values import node_of
-
     entries: dict[str, YamlEntry] = {}
     for name, item in values.items():
         if not isinstance(name, str):
             raise TypeError(f"a parameter is set by its name, which is text, found {name!r}")
-        value = _spec_value(name, item)
+        typed = item if isinstance(item, CliArgument) else None
+        value = typed.text if typed else _spec_value(name, item)
         shown = value if isinstance(value, str) else repr(item)
-        file = SourceFile("<parameters>", f"{name}={shown}")
-        key = YamlScalar(name, name, _span(file, 0, len(name)))
-        span = _span(file, len(name) + 1, len(shown))
-        entries[name] = YamlEntry(key, _scalar(value, span) if isinstance(value, str) else node_of(value, span))
-    return Arguments(entries, Path(), as_text=True, from_python=True)
+        begin = f"{typed.name}:=" if typed else f"{name}="
+        file = SourceFile(typed.place if typed else "<parameters>", begin + shown)
+        key = YamlScalar(name, name, _span(file, 0, len(begin.rstrip(":="))))
+        entries[name] = YamlEntry(key, _node(value, _span(file, len(begin), len(shown))))
+    is_typed = bool(values) and all(isinstance(item, CliArgument) for item in values.values())
+    return Arguments(entries, Path(), as_text=True, from_python=not is_typed)
 
 
-def _from_cli_arguments(values: Mapping[str, CliArgument]) -> Arguments:
-    entries: dict[str, YamlEntry] = {}
-    for name, (place, spelled, text) in values.items():
-        file = SourceFile(place, f"{spelled}:={text}")
-        value = _scalar(text, _span(file, len(spelled) + 2, len(text)))
-        entries[name] = YamlEntry(YamlScalar(name, name, _span(file, 0, len(spelled))), value)
-    return Arguments(entries, Path(), as_text=True)
+def _node(value: Value, span: Span) -> YamlNode:
+    if isinstance(value, str):
+        return _scalar(value, span)
+    from linkforge_compile.expand.values import node_of  # with the expressions, which plain robots do not need
+
+    return node_of(value, span)
 
 
 def _scalar(text: str, span: Span) -> YamlNode:
@@ -153,38 +148,39 @@ def _spec_value(name: str, value: object) -> Value:
     raise TypeError(f"parameter {name!r} cannot be {type(value).__name__}")
 
 
-_MAX_LISTED = 8
-
-
 class Variants(NamedTuple):
-    """The settings of each variant of a file, and the name of the selected one, None for the defaults."""
+    """The settings of each variant of a file, and the names of the selected ones, of which the last one decides."""
 
     by_name: Mapping[str, YamlMap] = MappingProxyType({})
-    selected: str | None = None
+    selected: tuple[str, ...] = ()
 
-    def value_of(self, parameter: str) -> YamlNode | None:
-        """Return what the selected variant sets a parameter to, None for nothing."""
-        variant = None if self.selected is None else self.by_name.get(self.selected)
-        return None if variant is None else variant.get(parameter)
+    @classmethod
+    def of(cls, spec: SpecFile, variant: str | None = None) -> Variants:
+        """Return those of a file, with those that `--variant` selects; an empty one has no settings."""
+        section = spec.tree.get("variants")
+        entries = section.entries.values() if isinstance(section, YamlMap) else ()
+        maps = {
+            one.name: one.value if isinstance(one.value, YamlMap) else YamlMap({}, one.value.span) for one in entries
+        }
+        return cls(maps, tuple(name for name in names_in_variant(variant, maps) if name in maps))
 
-    def other_values_of(self, parameter: str) -> tuple[YamlNode, ...]:
-        """Return what the other variants set a parameter to."""
-        others = (variant.get(parameter) for name, variant in self.by_name.items() if name != self.selected)
-        return tuple(value for value in others if value is not None)
+    def settings_of(self, parameter: str) -> tuple[tuple[str, YamlNode], ...]:
+        """Return the variants that set a parameter, and the values; the selected ones first, from the last one back."""
+        names = dict.fromkeys((*reversed(self.selected), *self.by_name))
+        values = ((name, self.by_name[name].get(parameter)) for name in names)
+        return tuple((name, value) for name, value in values if value is not None)
 
+    @property
     def entries(self) -> Iterator[YamlEntry]:
-        """Yield every setting of every variant."""
-        for variant in self.by_name.values():
-            yield from variant
+        """Every setting of every variant."""
+        return (entry for variant in self.by_name.values() for entry in variant)
 
 
-def variants_of(spec: SpecFile) -> dict[str, YamlMap]:
-    """Return the variants of a file by name; an empty one has no settings."""
-    section = spec.tree.get("variants")
-    return {
-        entry.name: entry.value if isinstance(entry.value, YamlMap) else YamlMap({}, entry.value.span)
-        for entry in (section if isinstance(section, YamlMap) else ())
-    }
+def names_in_variant(variant: str | None, known: Container[str]) -> tuple[str, ...]:
+    """Return the names in `a+b`, each once; a variant may have such a name itself."""
+    if variant is None:
+        return ()
+    return (variant,) if variant in known else tuple(dict.fromkeys(variant.split("+")))
 
 
 def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
@@ -195,17 +191,28 @@ def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
         spec = loader.open(path, Diagnostics())
     except BeyondLimitError:
         return ()
-    return variants_of(spec) if spec else ()
+    return Variants.of(spec).by_name if spec else ()
 
 
-def report_unknown_variant(name: str, spec: SpecFile, sink: Diagnostics) -> None:
-    """Report a `--variant` that the compiled file does not have."""
-    text = f"--variant {name}"
-    file = SourceFile(COMMAND_LINE, text)
-    where = Span(file, 1, len(text) - len(name) + 1, 1, len(text) + 1)
-    known = variants_of(spec)
-    names = [f"'{each}'" for each in known]
-    shown = [*names[:_MAX_LISTED], f"{len(names) - _MAX_LISTED} more"] if len(names) > _MAX_LISTED else names
-    hint = f"; its variants are {alternatives(shown, 'and')}" if shown else "; it declares no variants"
+def report_unknown_variants(variant: str | None, spec: SpecFile, sink: Diagnostics) -> bool:
+    """Report each name in `--variant` that the compiled file does not have; return whether there is one."""
+    known = Variants.of(spec).by_name
+    unknown = [name for name in names_in_variant(variant, known) if name not in known]
+    for name in unknown:
+        _report_unknown_variant(name, f"--variant {variant}", spec, sink)
+    return bool(unknown)
+
+
+def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnostics) -> None:
+    where = _span(SourceFile(COMMAND_LINE, text), text.index(name, len("--variant ")), len(name))
+    known = Variants.of(spec).by_name
     near = nearest(name, known)
+    hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"
     sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint="" if near else hint, near=known))
+
+
+def listed(names: Sequence[str], last: str) -> str:
+    """Return names in quotes as messages list them, of many the first few."""
+    rest = len(names) - _MOST_LISTED
+    shown = [*(f"'{name}'" for name in names[:_MOST_LISTED]), *([f"{rest} more"] if rest > 0 else [])]
+    return alternatives(shown, last)

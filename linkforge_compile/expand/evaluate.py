@@ -6,7 +6,7 @@ from collections import ChainMap
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
+from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
 from linkforge_compile.expand.spec_tree import ExpressionScan
 from linkforge_compile.expand.values import ExpressionTrace, Setting, plain_value, size_of
@@ -101,34 +101,20 @@ class Expressions(ExpressionScan):
 
 
 @dataclass(frozen=True)
-class DisabledNames:
-    """Collects the names that a `when` removes from one use of a file, and the prefixes of modules it removes."""
-
-    names: dict[str, Note] = field(default_factory=dict)
-    prefixes: dict[str, Note] = field(default_factory=dict)
-
-    @property
-    def deleted(self) -> DeletedNames:
-        return DeletedNames(self.names, self.prefixes)
-
-
-class _NullSink(Diagnostics):
-    """Drops everything; a class of its own so that a silent evaluator is recognized."""
-
-
-@dataclass(frozen=True)
 class Evaluator:
     """Evaluates nodes of one file in one scope.
 
     `paths_elsewhere` has the path parameters as seen from each included file that lies in another folder. `settings`
-    has what gave the names in scope their values.
+    has what gave the names in scope their values. `disabled` collects the names that a `when` removes, and
+    `disabled_prefixes` those of the modules that it removes.
     """
 
     scope: Scope
     expressions: Expressions
     sink: Diagnostics
     paths_elsewhere: Mapping[SourceFile, Mapping[str, Lazy]] = field(default_factory=dict)
-    disabled: DisabledNames = field(default_factory=DisabledNames)
+    disabled: dict[str, Note] = field(default_factory=dict)
+    disabled_prefixes: dict[str, Note] = field(default_factory=dict)
     settings: ChainMap[str, Setting] = field(default_factory=ChainMap)
 
     def inside(self, values: Mapping[str, Value], settings: dict[str, Setting]) -> Evaluator:
@@ -142,9 +128,7 @@ class Evaluator:
     @property
     def silent(self) -> Evaluator:
         """An evaluator that reports nothing, for parts that are left out of the robot."""
-        if isinstance(self.sink, _NullSink):
-            return self
-        return replace(self, sink=_NullSink(), expressions=Expressions(self.expressions.budget))
+        return replace(self, sink=Diagnostics(), expressions=Expressions(self.expressions.budget))
 
     def scope_of(self, scalar: YamlScalar) -> Scope:
         """Return the scope for the expressions of a scalar, which may be written in an included file."""
@@ -241,7 +225,12 @@ def report_interpolated_number(
     template = expressions.template(node, sink)
     if template is None or len(template.parts) == 1:
         return False
-    sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=_remedy(node, template, names)))
+    remedy = "make the whole one expression, such as '$(-a)'"
+    if expression := as_one_expression(node.text, node.span, names):
+        remedy = f"write '{expression}'"
+    elif isinstance(template.parts[0], Expression) and (unit := str(template.parts[1]).strip()) in UNITS:
+        remedy = f"give the unit '{unit}' where the number is written, and here '$({template.parts[0].text.strip()})'"
+    sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy))
     return True
 
 
@@ -258,12 +247,3 @@ def report_interpolated_quantity(node: YamlNode, value: Value | Fault, evaluator
         return False
     evaluator.sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=f"write '{expression}'"))
     return True
-
-
-def _remedy(node: YamlScalar, template: Template, names: Container[str]) -> str:
-    if expression := as_one_expression(node.text, node.span, names):
-        return f"write '{expression}'"
-    match template.parts:
-        case (Expression() as number, str(unit)) if unit.strip() in UNITS:
-            return f"give the unit '{unit.strip()}' where the number is written, and here '$({number.text.strip()})'"
-    return "make the whole one expression, such as '$(-a)'"

@@ -16,7 +16,7 @@ from linkforge_compile.schema import validate_computed
 from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
-from linkforge_compile.syntax.nodes import fault_of
+from linkforge_compile.syntax.nodes import to_fault
 
 
 def expand_node(
@@ -110,7 +110,7 @@ def _add_entry(
     # A faulty entry keeps its key as written, since its names may be those of the faulty `for`.
     key = entry.key if isinstance(entry.value, YamlFault) else evaluator.key(entry.key)
     if key is None or isinstance(entry.value, YamlFault):
-        entries.setdefault(entry.name, YamlEntry(entry.key, fault_of(entry.value)))
+        entries.setdefault(entry.name, YamlEntry(entry.key, to_fault(entry.value)))
     elif key.text in entries:
         evaluator.report_same_key(key, entries[key.text])
     else:

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
+from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
-from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variant, variants_of
+from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
@@ -49,8 +49,7 @@ def expand_uses(
     spec: SpecFile, arguments: Arguments, loader: Loader, sink: Diagnostics, *, unset: Unset, variant: str | None
 ) -> Instance:
     """Compute every expression of a file and of the modules that it uses; see `expand`."""
-    if variant is not None and variant not in variants_of(spec):
-        report_unknown_variant(variant, spec, sink)
+    if report_unknown_variants(variant, spec, sink):
         # It may have set parameters, so missing ones are not reported.
         arguments = replace(arguments, is_partial=True)
     state = CompileState(spec, loader, Expressions(loader.budget), unset, variant)
@@ -108,7 +107,8 @@ class _Expansion:
         scope.check_parameters()
         tree, defaults = _robot_tree(use.spec, scope.evaluator)
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
-        removed, references = scope.evaluator.disabled.deleted, scope.builtins.references
+        removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
+        references = scope.builtins.references
         if use.entry and use.entry.overrides:
             from linkforge_compile.expand.modules import ModuleBody
 

@@ -10,16 +10,16 @@ from functools import partial
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.expressions import SEEN_IN_THE_TEXT
+from linkforge_compile.diagnostics.codes.expressions import WITHOUT_VALUES
 from linkforge_compile.diagnostics.codes.modules import (
     DATA_NOT_PATH,
     INVALID_VARIABLE_NAME,
     NAME_OF_TWO_KINDS,
-    NOT_JUDGED,
+    NOT_CHECKED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
-from linkforge_compile.expand.arguments import Unset, Variants, variants_of
+from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.files import follow
@@ -42,6 +42,7 @@ from linkforge_compile.expressions import (
 )
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
 
@@ -53,7 +54,7 @@ _KINDS = {"parameters": "parameter", "variables": "variable", "data": "data name
 
 @dataclass(frozen=True)
 class CompileState:
-    """What all uses in one compile share; `variant` is the one selected for the compiled file."""
+    """What all uses in one compile share; `variant` selects one of the compiled file, or several: `a+b`."""
 
     compiled: SpecFile
     loader: Loader
@@ -82,7 +83,7 @@ class FileScope:
         self._loader = state.loader
         self._packages: dict[str, Path] | None = None
         self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
-        self._variants = Variants() if bound.use else Variants(variants_of(spec), state.variant)
+        self._variants = Variants() if bound.use else Variants.of(spec, state.variant)
         self.declared = declarations(spec.tree.get("parameters"))
         self._unset: list[Declaration] = []
         self._sink = sink
@@ -147,7 +148,7 @@ class FileScope:
         elif self._unset and not self._reports_unset:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
-            self._sink.report(NOT_JUDGED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
+            self._sink.report(NOT_CHECKED.at(self._unset[0].key.span, names=names, pronoun=pronoun))
 
     def check_unused_variables(self) -> None:
         """Report faults of unused variables and of variants that do not depend on values.
@@ -157,7 +158,7 @@ class FileScope:
         self.evaluator = replace(self.evaluator, sink=_TextFaultSink(self._sink))
         for name in self._variables:
             self.evaluator.scope.lookup(name, self.evaluator.sink)
-        for setting in self._variants.entries():
+        for setting in self._variants.entries:
             self.evaluator.value(setting.value)
 
     def _parameter(self, declaration: Declaration) -> Value | Fault:
@@ -199,7 +200,7 @@ class FileScope:
         return Lazy(partial(compute, entry), entry.key.span)
 
     def _variable(self, entry: YamlEntry) -> Value | Fault:
-        self.evaluator.settings[entry.name] = Setting("the variable", entry.value, self.evaluator)
+        self.evaluator.settings[entry.name] = Setting(Kind.VARIABLE, entry.value, self.evaluator)
         value = self.evaluator.value(entry.value)
         return FAULT if report_interpolated_quantity(entry.value, value, self.evaluator) else value
 
@@ -209,7 +210,7 @@ class FileScope:
         node = load_data(entry, path, lambda text: self.builtins.site(text, place), self._loader, self._sink)
         if node is None:
             return FAULT
-        self.evaluator.settings[entry.name] = Setting("data", node, named_by=entry.value)
+        self.evaluator.settings[entry.name] = Setting(Kind.DATA, node, name=node.span.file.name, named_by=entry.value)
         return plain_value(node)
 
     def _paths_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
@@ -285,7 +286,7 @@ class _TextFaultSink(Diagnostics):
         self._sink = sink
 
     def report(self, diagnostic: Diagnostic) -> None:
-        if diagnostic.code in SEEN_IN_THE_TEXT:
+        if diagnostic.code in WITHOUT_VALUES:
             self._sink.report(diagnostic)
 
 

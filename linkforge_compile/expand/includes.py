@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     INCLUDE_NOT_PLAIN,
     INCLUDE_TOO_DEEP,
     INCLUDED_TWICE,
-    SAID_BY_MAIN_FILE,
+    SET_BY_MAIN_FILE,
     TOO_MANY_INCLUDES,
 )
 from linkforge_compile.expand.files import follow
@@ -154,7 +154,7 @@ class _Composer:
         entries: dict[str, YamlEntry] = {}
         for name, entry in tree.entries.items():
             if name in _MAIN_FILE_ONLY:
-                self._sink.report(SAID_BY_MAIN_FILE.at(entry.key.span, key=name))
+                self._sink.report(SET_BY_MAIN_FILE.at(entry.key.span, key=name))
             elif name not in _PER_FILE and not name.startswith("x-"):
                 entries[name] = entry
         return YamlMap(entries, tree.span)

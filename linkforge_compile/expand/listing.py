@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
-from linkforge_compile.expand.arguments import Arguments, Unset, Variants, variants_of
+from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.files import find_package
@@ -95,14 +95,15 @@ class Listing(NamedTuple):
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; faults are reported, but not parameters without a value."""
     scope = _scope_without_arguments(spec, loader, sink)
-    variants = variants_of(spec)
-    BoundArguments(Arguments(is_partial=True), sink).report_unknown(scope.declared, Variants(variants), spec)
+    variants = Variants.of(spec)
+    BoundArguments(Arguments(is_partial=True), sink).report_unknown(scope.declared, variants, spec)
     return Listing(
         name=_text(spec.tree.get("name")),
         description=_text(spec.tree.get("description")),
         parameters=tuple(_listed(declaration, scope, spec, sink) for declaration in scope.declared.values()),
         variants={
-            name: {entry.name: as_written(entry.value) for entry in variant} for name, variant in variants.items()
+            name: {entry.name: as_written(entry.value) for entry in variant}
+            for name, variant in variants.by_name.items()
         },
     )
 

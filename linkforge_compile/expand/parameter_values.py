@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
@@ -16,8 +15,9 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_NOT_SET,
     UNFIT_CONSTRAINT,
     UNKNOWN_PARAMETER,
+    VARIANTS_DISAGREE,
 )
-from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
+from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants, listed
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
 from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
 from linkforge_compile.expand.parameters import (
@@ -38,13 +38,40 @@ from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression, read
+from linkforge_compile.source.provenance import Kind
+from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read
 
 _MAX_SHOWN = 8
-"""How many parameters, choices and variants a message shows."""
+"""How many parameters and variants a message shows."""
 
 _MAX_SHOWN_TEXT = 60
 """The longest list of choices that a message shows [characters]."""
+
+
+@dataclass(frozen=True)
+class Writer:
+    """Where values of parameters are written: `evaluator` has the scope there, None for plain data.
+
+    `sink` receives their faults, and `folder` is where relative paths start, None for nowhere.
+    """
+
+    sink: Diagnostics
+    evaluator: Evaluator | None
+    folder: Path | None
+
+    def value(self, node: YamlNode, type_: ParameterType) -> Value | Fault:
+        """Return the value of a node; a text type keeps a scalar without expressions as written."""
+        if type_.is_text and isinstance(node, YamlScalar) and not (self.evaluator and has_expression(node.text)):
+            return node.text
+        return self.evaluator.value(node) if self.evaluator else plain_value(node)
+
+    def place(self, node: YamlNode) -> Span:
+        return self.evaluator.place(node) if self.evaluator else node.span
+
+    @property
+    def names(self) -> Container[str]:
+        """The names that expressions may use there."""
+        return self.evaluator.scope if self.evaluator else ()
 
 
 @dataclass(frozen=True)
@@ -65,10 +92,8 @@ class BoundArguments:
         section = spec.tree.entries.get("parameters")
         text = "its parameters are declared here" if section else "this file declares no parameters"
         notes = [Note(text, section.key.span if section else spec.file.whole)]
-        for name, entry in (
-            *self.arguments.entries.items(),
-            *((setting.name, setting) for setting in variants.entries()),
-        ):
+        settings = ((setting.name, setting) for setting in variants.entries)
+        for name, entry in (*self.arguments.entries.items(), *settings):
             if name not in declared:
                 self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=notes))
 
@@ -84,28 +109,15 @@ class BoundArguments:
         parsed = read(file, self.sink)
         return YamlFault(node.span) if parsed is None else parsed.get(name) or node
 
-    def value(self, node: YamlNode, type_: ParameterType) -> Value | Fault:
-        """Return the value of an argument for a parameter of a type."""
-        if self.evaluator:
-            return evaluate_for(type_, node, self.evaluator)
-        return node.text if type_.is_text and isinstance(node, YamlScalar) else plain_value(node)
-
-    def place(self, node: YamlNode) -> Span:
-        return self.evaluator.place(node) if self.evaluator else node.span
-
-    @property
-    def names(self) -> Container[str]:
-        """The names that expressions may use where the arguments are written."""
-        return self.evaluator.scope if self.evaluator else ()
-
     def settings(self, name: str, node: YamlNode) -> list[Setting]:
         """Return what set a parameter to the node, then what overrides replaced by it."""
-        by = "'with'" if self.use else "the command line" if node.span.file.name == COMMAND_LINE else "Python"
-        settings, entry = [Setting(by, node, self.evaluator)], self.arguments.entries[name].replaced
+        is_typed = node.span.file.name == COMMAND_LINE
+        kind = Kind.WITH if self.use else Kind.COMMAND_LINE if is_typed else Kind.PYTHON
+        nodes, entry = [node], self.arguments.entries[name].replaced
         while entry:
-            settings.append(Setting(by, entry.value, self.evaluator))
+            nodes.append(entry.value)
             entry = entry.replaced
-        return settings
+        return [Setting(kind, one, self.evaluator, one.span.file.text if is_typed else "") for one in nodes]
 
 
 def parameter_value(
@@ -119,21 +131,64 @@ def parameter_value(
     if type_ is None:
         return FAULT, None
     parameter = make_parameter(declaration, type_, evaluator)
-    result, settings = _argument_value(parameter, bound, spec, evaluator, declaration.key.span)
-    noted = _declared_here(evaluator.sink, declaration.key.span)
-    for node, sink, by in (
-        (variants.value_of(declaration.name), noted, f"variant '{variants.selected}'"),
-        *((other, noted, "") for other in variants.other_values_of(declaration.name)),
-        (declaration.default, evaluator.sink, "the default"),
-    ):
-        is_used = bool(by) and result is None
+    declared = [Note("the parameter is declared here", declaration.key.span)]
+    candidates: list[tuple[YamlNode, Writer, list[Setting]]] = []
+    if (node := bound.node(declaration.name, type_)) is not None:
+        writer = Writer(AnnotatingSink(bound.sink, declared), bound.evaluator, bound.arguments.folder)
+        candidates.append((node, writer, bound.settings(declaration.name, node)))
+    else:
+        _report_disagreement(declaration.name, variants, evaluator.sink)
+    for name, node in variants.settings_of(declaration.name):
+        writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
+        is_selected = name in variants.selected
+        candidates.append((node, writer, [Setting(Kind.VARIANT, node, evaluator, name)] if is_selected else []))
+    if (node := declaration.default) is not None:
+        writer = Writer(evaluator.sink, evaluator, spec.part_at(node.span).folder)
+        candidates.append((node, writer, [Setting(Kind.PARAMETER_DEFAULT, node, evaluator)]))
+    value: Value | Fault | None = None
+    settings: list[Setting] = []
+    for node, writer, set_by in candidates:
+        is_used = bool(set_by) and value is None
         # A value without expressions is checked even if it is not used.
-        if node is not None and (is_used or not _has_expressions(node)):
-            value = _own_value(parameter, node, spec, evaluator, sink)
-            result = value if is_used else result
-        if node is not None and by and result is not None:
-            settings.append(Setting(by, node, evaluator))
-    return result, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+        if is_used or not evaluator.expressions.is_computed(node):
+            found = _fitting_value(parameter, node, writer, spec, evaluator.expressions)
+            value = found if is_used else value
+        if value is not None:
+            settings += set_by
+    return value, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+
+
+def _fitting_value(
+    parameter: Parameter, node: YamlNode, writer: Writer, spec: SpecFile, expressions: Expressions
+) -> Value | Fault | None:
+    """Return what is written for a parameter as a value of its type; None for null, FAULT after a reported error.
+
+    A path is then relative to the file that declares the parameter.
+    """
+    value = writer.value(node, parameter.type)
+    if value is None or value is FAULT:
+        return value
+    if not parameter.type.is_text and report_interpolated_number(node, value, expressions, writer.names, writer.sink):
+        return FAULT
+    if parameter.pattern is not None:
+        expressions.budget.spend(Limit.STEPS, parameter.pattern.steps(str(value)), node.span)
+    converted = parameter.convert(value, writer.place(node), writer.sink, writer.names)
+    if parameter.type.name != "file" or not isinstance(converted, str):
+        return FAULT if converted is None else converted
+    path = rebased(converted, writer.folder, spec)
+    if path != converted and Path(path).is_absolute():
+        writer.sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=converted))
+    return path
+
+
+def _report_disagreement(parameter: str, variants: Variants, sink: Diagnostics) -> None:
+    """Report a parameter that a selected variant sets to another value than the one that decides."""
+    selected = [setting for setting in variants.settings_of(parameter) if setting[0] in variants.selected]
+    for other, node in selected[1:]:
+        name, used = selected[0]
+        if plain_value(node) != plain_value(used):
+            notes = [Note(f"variant '{other}' sets it here", node.span)]
+            sink.report(VARIANTS_DISAGREE.at(used.span, name=parameter, by=name, other=other, notes=notes))
 
 
 def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
@@ -161,10 +216,10 @@ def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Ev
 
 
 def _constraint(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> Value:
-    value = FAULT if node is None else evaluate_for(unbounded.type, node, evaluator)
-    return (
-        None if node is None or value is FAULT else unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)
-    )
+    value = FAULT if node is None else Writer(evaluator.sink, evaluator, None).value(node, unbounded.type)
+    if node is None or value is FAULT:
+        return None
+    return unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)
 
 
 def _choices(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> tuple[Value, ...] | None:
@@ -191,106 +246,27 @@ def _pattern(node: YamlNode | None, evaluator: Evaluator) -> Pattern | None:
         return None
 
 
-def evaluate_for(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value | Fault:
-    """Return the value of a node for a parameter of a type; a text type keeps a plain scalar as written."""
-    if type_.is_text and isinstance(node, YamlScalar) and not has_expression(node.text):
-        return node.text
-    return evaluator.value(node)
-
-
 _STEPS_PER_INSTRUCTION = 4
 """What compiling one instruction of a pattern costs, in steps of expressions."""
-
-
-def _has_expressions(node: YamlNode) -> bool:
-    if isinstance(node, YamlScalar):
-        return has_expression(node.text)
-    if isinstance(node, YamlMap):
-        return any(has_expression(entry.name) or _has_expressions(entry.value) for entry in node)
-    return isinstance(node, YamlList) and any(map(_has_expressions, node))
-
-
-def _declared_here(sink: Diagnostics, declared: Span) -> Diagnostics:
-    return AnnotatingSink(sink, [Note("the parameter is declared here", declared)])
-
-
-def _argument_value(
-    parameter: Parameter, bound: BoundArguments, spec: SpecFile, evaluator: Evaluator, declared: Span
-) -> tuple[Value | Fault | None, list[Setting]]:
-    """Return the value of the argument, None for none, and what set it."""
-    node = bound.node(parameter.name, parameter.type)
-    value = None if node is None else bound.value(node, parameter.type)
-    if node is None or value is None:
-        return None, []
-    sink = _declared_here(bound.sink, declared)
-    written = _Written(node, value, bound.place(node), bound.names)
-    converted = _convert(parameter, written, evaluator.expressions, sink)
-    path = _rebase_file(parameter, converted, bound.arguments.folder, spec)
-    if isinstance(converted, str) and path != converted and Path(str(path)).is_absolute():
-        sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=converted))
-    return path, bound.settings(parameter.name, node)
-
-
-def _own_value(
-    parameter: Parameter, node: YamlNode, spec: SpecFile, evaluator: Evaluator, sink: Diagnostics
-) -> Value | Fault | None:
-    """Return the value of a default, or of a variant's setting; None for none."""
-    value = evaluate_for(parameter.type, node, evaluator)
-    if value is None:
-        return None
-    written = _Written(node, value, evaluator.place(node), evaluator.scope)
-    converted = _convert(parameter, written, evaluator.expressions, sink)
-    return _rebase_file(parameter, converted, spec.part_at(node.span).folder, spec)
-
-
-class _Written(NamedTuple):
-    """A node written for a parameter, its value, the place to report it at, and the names known there."""
-
-    node: YamlNode
-    value: Value | Fault
-    place: Span
-    names: Container[str]
-
-
-def _convert(parameter: Parameter, written: _Written, expressions: Expressions, sink: Diagnostics) -> Value | Fault:
-    """Return the value as one of the parameter's type, FAULT if it does not fit, which is reported at its place."""
-    node, value, place, names = written
-    if value is FAULT:
-        return FAULT
-    if not parameter.type.is_text and report_interpolated_number(node, value, expressions, names, sink):
-        return FAULT
-    if parameter.pattern is not None:
-        expressions.budget.spend(Limit.STEPS, parameter.pattern.steps(str(value)), node.span)
-    converted = parameter.convert(value, place, sink, names)
-    return FAULT if converted is None else converted
-
-
-def _rebase_file(parameter: Parameter, value: Value | Fault, writer: Path | None, spec: SpecFile) -> Value | Fault:
-    """Return a path written in the folder `writer` relative to the file that declares the parameter."""
-    return rebased(value, writer, spec) if parameter.type.name == "file" and isinstance(value, str) else value
 
 
 def report_unset(declared: Sequence[Declaration], bound: BoundArguments, variants: Variants) -> None:
     """Report required parameters without a value: together at the `use`, else each where it is declared."""
     if bound.use is not None:
-        rest = len(declared) - _MAX_SHOWN
-        names = [*(f"'{one.name}'" for one in declared[:_MAX_SHOWN]), *([f"{rest} more"] if rest > 0 else [])]
-        settings = [
-            *(f"{one.name}: {_placeholder(one)}" for one in declared[:_MAX_SHOWN]),
-            *(["…"] if rest > 0 else []),
-        ]
-        what = f"parameter {names[0]} has" if len(names) == 1 else f"parameters {alternatives(names, 'and')} have"
-        notes = [Note(f"'{one.name}' is declared here", one.key.span) for one in declared[:_MAX_SHOWN]]
+        shown = declared[:_MAX_SHOWN]
+        names = listed([one.name for one in declared], "and")
+        what = f"parameter {names} has" if len(declared) == 1 else f"parameters {names} have"
+        settings = [*(f"{one.name}: {_placeholder(one)}" for one in shown), *(["…"] if shown != declared else [])]
         remedy = f"'with: {{{', '.join(settings)}}}'"
+        notes = [Note(f"'{one.name}' is declared here", one.key.span) for one in shown]
         bound.sink.report(PARAMETER_NOT_SET.at(bound.use, what=what, remedy=remedy, notes=notes))
         return
     in_python = bound.arguments.from_python
     for one in declared:
         itself = f"parameters={{'{one.name}': …}}" if in_python else f"'-p {one.name}={_placeholder(one)}'"
-        names = [name for name, variant in variants.by_name.items() if variant.get(one.name) is not None][:_MAX_SHOWN]
-        remedy = alternatives(
-            [itself, *(f"variant='{name}'" if in_python else f"'--variant {name}'" for name in names)]
-        )
+        names_of_variants = [name for name, variant in variants.by_name.items() if variant.get(one.name) is not None]
+        selections = [f"variant='{name}'" if in_python else f"'--variant {name}'" for name in names_of_variants]
+        remedy = alternatives([itself, *selections[:_MAX_SHOWN]])
         bound.sink.report(PARAMETER_NOT_SET.at(one.key.span, what=f"parameter '{one.name}' has", remedy=remedy))
 
 
@@ -298,8 +274,7 @@ def _placeholder(declaration: Declaration) -> str:
     """Return a placeholder for a value: the choices of an `enum`, else the type: "mock|real", "LENGTH"."""
     choices = declaration.constraints.get("enum")
     items = choices.value.items if choices and isinstance(choices.value, YamlList) else ()
-    words = [item.text for item in items if isinstance(item, YamlScalar) and not has_expression(item.text)]
-    text = "|".join(words[:_MAX_SHOWN])
-    if 0 < len(words) == len(items) <= _MAX_SHOWN and len(text) <= _MAX_SHOWN_TEXT:
+    text = "|".join(item.text if isinstance(item, YamlScalar) else "$(" for item in items)
+    if 0 < len(text) <= _MAX_SHOWN_TEXT and not has_expression(text):
         return text
     return declaration.type.name.upper() if declaration.type else "VALUE"

@@ -24,6 +24,7 @@ from linkforge_compile.limits import Limit
 from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import Shape
 from linkforge_compile.source import Span
+from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 
@@ -111,7 +112,7 @@ def _occur_once(
     elif holds:
         yield evaluator, body
     elif entry and condition:
-        _disable(entry, body, condition.span, evaluator)
+        _disable(entry, body, condition.span, evaluator.silent)
 
 
 def _holds(condition: YamlNode | None, evaluator: Evaluator) -> bool | Fault:
@@ -127,7 +128,7 @@ def _no_condition(value: Value, condition: YamlNode, evaluator: Evaluator) -> Di
     """Return the diagnostic for a condition that is neither true nor false, with a correction if there is one."""
     place = evaluator.place(condition)
     if isinstance(value, str) and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
-        return TRUTH_AS_TEXT.at(place, name=value, meant=truth)
+        return TRUTH_AS_TEXT.at(place, name=value, expected=truth)
     text = condition.text if isinstance(condition, YamlScalar) else ""
     expression = as_one_expression(text, condition.span, evaluator.scope)
     remedy = f"; write '{expression}'" if expression else ""
@@ -177,7 +178,7 @@ def _rounds(names: YamlMap, evaluator: Evaluator, body: YamlNode) -> list[Evalua
             for place, item in enumerate(items):
                 budget.spend(Limit.ROUNDS, 1, entry.key.span)
                 evaluator.expressions.charge_copy(copied, entry.key.span, number)
-                setting = Setting("one of 'for'", entry.value, around, (place,), is_made)
+                setting = Setting(Kind.REPETITION, entry.value, around, path=(place,), is_made=is_made)
                 longer.append(({**values, entry.name: item}, {**settings, entry.name: setting}))
         combinations = longer
     return [evaluator.inside(*combination) for combination in combinations]
@@ -226,21 +227,20 @@ def _key_mentions(key: YamlScalar | None, names: YamlMap, evaluator: Evaluator) 
     return not missing
 
 
-def _disable(entry: _Entry, body: YamlNode, where: Span, evaluator: Evaluator) -> None:
+def _disable(entry: _Entry, body: YamlNode, where: Span, silent: Evaluator) -> None:
     """Record the names that the `when` at a place removes: those of an entry, its joint and its module."""
-    silent = evaluator.silent
     name = silent.key(entry.key)
     if name is None:
         return
-    disabled, note = evaluator.disabled, Note(f"'{name.text}' is disabled by 'when' here", where)
-    disabled.names.setdefault(name.text, note)
+    note = Note(f"'{name.text}' is disabled by 'when' here", where)
+    silent.disabled.setdefault(name.text, note)
     if entry.title in _NAMES_ITS_JOINT:
         joint = body.get("joint") if isinstance(body, YamlMap) else None
         text = _text(joint, "name", silent) if isinstance(joint, YamlMap) else _text(body, "joint", silent)
-        disabled.names.setdefault(f"{name.text}_joint" if text is None else text, note)
+        silent.disabled.setdefault(f"{name.text}_joint" if text is None else text, note)
     if entry.title == "a module":
         prefix = _text(body, "prefix", silent)
-        disabled.prefixes.setdefault(f"{name.text}_" if prefix is None else prefix, note)
+        silent.disabled_prefixes.setdefault(f"{name.text}_" if prefix is None else prefix, note)
 
 
 def _text(body: YamlNode, field: str, evaluator: Evaluator) -> str | None:

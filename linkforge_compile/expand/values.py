@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -23,7 +22,8 @@ from linkforge_compile.expressions import (
     passed_on,
     seen_from_compiled,
 )
-from linkforge_compile.source import Key, Origin, SourceFile, Span, TracedSpan
+from linkforge_compile.source import Key, Origin, Span, TracedSpan
+from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import (
     ScalarValue,
     Tags,
@@ -34,7 +34,6 @@ from linkforge_compile.syntax import (
     YamlNode,
     YamlScalar,
     has_expression,
-    read,
 )
 from linkforge_compile.units import Quantity, number_text, parse_quantity
 
@@ -158,7 +157,7 @@ class Evaluation(Protocol):
 class Setting:
     """What gives a name its value.
 
-    - `by`: the words for it, such as "'with'" or "the default".
+    - `kind`, `name`: what that is, as in a chain of provenance.
     - `node`, `path`: the value is the part at this path of the node.
     - `tree`: evaluates the node; None for plain data, where `$(` is text.
     - `is_made`: whether the value is written nowhere, such as a number that a `for` counts.
@@ -166,9 +165,10 @@ class Setting:
     - `instead_of`: the settings that this one overrides, the next in line first.
     """
 
-    by: str
+    kind: Kind
     node: YamlNode
     tree: Evaluation | None = None
+    name: str = ""
     path: ValuePath = ()
     is_made: bool = False
     named_by: YamlNode | None = None
@@ -323,20 +323,3 @@ def _number(scalar: YamlScalar) -> float | None:
     template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
     value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
     return None if isinstance(value, bool) or not isinstance(value, int | float) else float(value)
-
-
-def is_default(place: Span) -> bool:
-    """Whether a place of a compiled spec lies in its `defaults`.
-
-    Only `explain` asks, for a few places, so the file is read again instead of marking every merged entry.
-    """
-    section = _defaults_section(place.file)
-    return section is not None and place.lies_in(section.span)
-
-
-@lru_cache(maxsize=8)
-def _defaults_section(file: SourceFile) -> YamlNode | None:
-    if "defaults" not in file.text:
-        return None
-    tree = read(file, Diagnostics())
-    return tree.get("defaults") if tree else None

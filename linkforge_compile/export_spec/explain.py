@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.values import NameOrigin, is_default, names_behind
+from linkforge_compile.expand.values import NameOrigin, names_behind
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.provenance import place_of
+from linkforge_compile.export_spec.provenance import is_default, written_at
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Provenance, join_links, outward, uses_of
@@ -119,7 +119,7 @@ def _written(
 
 
 def _chain(place: Span, source: SourceRef, links: Iterable[Link] = ()) -> Provenance:
-    return replace(place_of(place), outer=join_links(links, outward(place, uses_of(source, place))))
+    return replace(written_at(place), outer=join_links(links, outward(place, uses_of(source, place))))
 
 
 def _places(names: Iterable[NameOrigin]) -> Iterator[Span]:
@@ -284,4 +284,4 @@ def computed_from(robot: Robot, path: Sequence[str]) -> ComputedFrom | None:
         Shape(f"{kind}/{place}", body.geometry.type.value, body.source.span if body.source else None)
         for place, body in enumerate(bodies)
     )
-    return ComputedFrom(quantity, place_of(spread.span), shapes)
+    return ComputedFrom(quantity, written_at(spread.span), shapes)

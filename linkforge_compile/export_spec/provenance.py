@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.values import is_default
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Provenance, outward
+from linkforge_compile.syntax import YamlNode, read
 
 
 def compiled_folder(robot: Robot) -> Path | None:
@@ -17,9 +19,21 @@ def compiled_folder(robot: Robot) -> Path | None:
     return path.parent if path else None
 
 
-def place_of(span: Span) -> Provenance:
+def written_at(span: Span) -> Provenance:
     """Return the link of a value that is written at a place, in the `defaults` of its file or elsewhere."""
     return Provenance(Kind.DEFAULT if is_default(span) else Kind.WRITTEN, span)
+
+
+def is_default(place: Span) -> bool:
+    """Whether a place lies in the `defaults` of its file; the file is read again, for `explain` has few places."""
+    section = _defaults_section(place.file)
+    return section is not None and place.lies_in(section.span)
+
+
+@lru_cache(maxsize=8)
+def _defaults_section(file: SourceFile) -> YamlNode | None:
+    tree = read(file, Diagnostics()) if "defaults" in file.text else None
+    return tree.get("defaults") if tree else None
 
 
 def origin_of(source: SourceRef, folder: Path | None) -> str:

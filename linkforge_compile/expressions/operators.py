@@ -192,7 +192,7 @@ def truth(value: Value) -> bool:
     if isinstance(value, bool):
         return value
     if isinstance(value, str) and (intended := YAML_1_1_BOOLEANS.get(value.lower())):
-        raise RefusedError(codes.TRUTH_AS_TEXT, name=value, meant=intended)
+        raise RefusedError(codes.TRUTH_AS_TEXT, name=value, expected=intended)
     raise wrong_kind("true or false", value)
 
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 class Extended(Protocol):
-    """A part of the robot that may hold attributes and elements besides its fields."""
+    """A part of the robot that may hold attributes and elements in addition to its fields."""
 
     @property
     def extra_attributes(self) -> Sequence[tuple[str, str]] | Mapping[str, str]: ...

@@ -38,7 +38,7 @@ XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2")
 """How the names of templates end that write XML."""
 
 _MADE_BY = "jinja2.txt"
-"""The file beside compiled templates that names the version of Jinja2 whose code they are."""
+"""The file in the folder of compiled templates that names the version of Jinja2 that compiled them."""
 
 
 def is_xml(template: str | None) -> bool:
@@ -61,10 +61,10 @@ def finalize(context: EvalContext, value: Spellable | None) -> object:
     try:
         return Xml(escaped(spelled(value)))
     except (TypeError, ValueError):
-        raise TemplateRuntimeError(f"{describe(value)} has no text in XML; write one of its fields") from None
+        raise TemplateRuntimeError(f"{kind_of(value)} has no text in XML; write one of its fields") from None
 
 
-def describe(value: object) -> str:
+def kind_of(value: object) -> str:
     """Return the kind of a value with its article, for a message."""
     name = type(value).__name__
     return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
@@ -126,17 +126,17 @@ def _plain(value: object) -> object:
             return {"xyz": _plain(xyz), "rpy": _plain(rpy)}
         case Sequence() | Vector3() if not hasattr(value, "_fields"):
             return [_plain(item) for item in value]
-    raise TemplateRuntimeError(f"{describe(value)} has no text in YAML; write its fields")
+    raise TemplateRuntimeError(f"{kind_of(value)} has no text in YAML; write its fields")
 
 
-def place_of(value: object) -> Xml:
+def place_attribute(value: object) -> Xml:
     """Return the attribute that says where a text was written, while a source map is made."""
     return getattr(value, "place", NOTHING)
 
 
 def element_of(value: Spellable | None, tag: str) -> Xml:
     """Return an element with a text, and where that was written while a source map is made; nothing for None."""
-    return NOTHING if value is None else Xml(f"<{tag}{place_of(value)}>{escaped(spelled(value))}</{tag}>")
+    return NOTHING if value is None else Xml(f"<{tag}{place_attribute(value)}>{escaped(spelled(value))}</{tag}>")
 
 
 FILTERS: dict[str, Callable[..., object]] = {
@@ -144,10 +144,10 @@ FILTERS: dict[str, Callable[..., object]] = {
     "vector": format_vector,
     "degrees": math.degrees,
     "to_yaml": format_yaml,
-    "place": place_of,
+    "place": place_attribute,
     "element": element_of,
 }
-"""The filters that templates have beside those of Jinja2."""
+"""The filters that templates have in addition to Jinja2's own."""
 
 OPTIONS: dict[str, Any] = {  # Any: the keyword arguments of Environment, each of its own type
     "autoescape": is_xml,
@@ -246,7 +246,7 @@ def _require_all(items: Iterable[object], count: Callable[[], None]) -> None:
     for item in items:
         count()
         if isinstance(item, Vector3 | Transform | Color):
-            raise TemplateRuntimeError(f"{describe(item)} has no text in a list; write '| join(\", \")'")
+            raise TemplateRuntimeError(f"{kind_of(item)} has no text in a list; write '| join(\", \")'")
         require_text(item, count)
 
 
@@ -262,5 +262,5 @@ def _reason(value: object) -> str:
     if isinstance(value, set | frozenset):
         return "a set has no order, so the text would differ from run to run; write '| sort'"
     if isinstance(value, Iterable) and not hasattr(value, "_fields"):
-        return f"{describe(value)} has no text; write '| list' or '| join(\", \")'"
-    return f"{describe(value)} has no text; write one of its fields{', such as its name' * hasattr(value, 'name')}"
+        return f"{kind_of(value)} has no text; write '| list' or '| join(\", \")'"
+    return f"{kind_of(value)} has no text; write one of its fields{', such as its name' * hasattr(value, 'name')}"

@@ -132,10 +132,10 @@ class TemplateFormat(Format):
         """Return the document, the same as without a map, and where each of its lines was written."""
         from linkforge_compile.formats.environment import render_own
         from linkforge_compile.formats.source_map import Mapped, SourceMap, recording
-        from linkforge_compile.formats.xml_document import document_of, write_with_map
+        from linkforge_compile.formats.xml_document import parse_rendered, write_with_map
 
         with recording() as origins:
-            body = document_of(render_own(self._template, self._views(robot, rendering)))
+            body = parse_rendered(render_own(self._template, self._views(robot, rendering)))
         text, map_ = write_with_map(body, origins)
         head = _head(rendering)
         return Mapped(f"{head}{text}\n", SourceMap(((),) * head.count("\n") + map_.lines + ((),)))
@@ -154,9 +154,9 @@ class TemplateFormat(Format):
         if templates is None:
             # Jinja2 takes 70 ms to import, and some commands render nothing.
             from linkforge_compile.formats.environment import render_own
-            from linkforge_compile.formats.xml_document import document_of, write
+            from linkforge_compile.formats.xml_document import parse_rendered, write
 
-            body = write(document_of(render_own(self._template, views)), pretty=rendering.pretty)
+            body = write(parse_rendered(render_own(self._template, views)), pretty=rendering.pretty)
         else:
             from linkforge_compile.formats.user_templates import TemplateFolder
 
@@ -181,7 +181,7 @@ class TemplateFormat(Format):
 
 
 def _head(rendering: Rendering) -> str:
-    """Return what stands above the root element: the declaration, and the banner as a comment."""
+    """Return what precedes the root element: the declaration, and the banner as a comment."""
     lines = ['<?xml version="1.0"?>', *([_comment(rendering)] if rendering.banner else [])]
     return "".join(f"{line}\n" if rendering.pretty else line for line in lines)
 

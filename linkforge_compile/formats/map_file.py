@@ -19,7 +19,7 @@ VERSION = 1
 """Of the format; a reader refuses any other."""
 
 ENDING = ".map.json"
-"""What follows the name of an output file in that of its map, which lies beside it."""
+"""What follows the name of an output file in that of its map, which is in the same folder."""
 
 
 def hash_of(text: str) -> str:

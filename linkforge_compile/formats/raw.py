@@ -21,8 +21,8 @@ from linkforge_compile.formats.xml_text import (
 )
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, SourceRef
-from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.xml_tree import Places, XmlElement, document_of
+from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
+from linkforge_compile.source.xml_tree import Places, XmlElement, parse_xml
 
 _BEGIN, _END = "<raw-xml-of-a-spec>", "</raw-xml-of-a-spec>"
 """Stand around raw XML, so that any number of elements is one document and a DOCTYPE is a fault.
@@ -45,7 +45,7 @@ def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -
     White space alone between tags is layout, unless the element says `xml:space="preserve"` or CDATA marks it as text.
     CDATA becomes text. The text was written under `path` of what `source` points to.
 
-    Prefixes need no declaration here: it usually stands on `<robot>`.
+    Prefixes need no declaration here: it is usually on `<robot>`.
 
     Raises:
         RobotGeneratorError: for XML that is not well-formed, for text outside of elements, for a document type, and for
@@ -83,16 +83,16 @@ def well_formed_elements(text: str) -> tuple[XmlElement, ...]:
 
 
 def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:
-    """Return the element that stands around raw XML, and the sections of CDATA in it."""
+    """Return the element that encloses raw XML, and the sections of CDATA in it."""
     require_writable(text)
     file = SourceFile("", f"{_BEGIN}{text}{_END}")
     places = Places(file.text)
     try:
         sections = _sections(places)
-        return document_of(file, places).root, sections
+        return parse_xml(file, places).root, sections
     except MalformedXmlError as error:
-        # As of a text that just ends: a tag that is not closed would be one that holds what stands around the text.
-        fault = fault_of(text, _BEGIN) if fault_of(file.text) else None
+        # Parse without the closing tag, which would be reported for a tag that is not closed.
+        fault = find_xml_error(text, _BEGIN) if find_xml_error(file.text) else None
         raise _malformed(text, fault or MalformedXmlError(error.problem, max(error.at - len(_BEGIN), 0))) from None
 
 
@@ -129,7 +129,7 @@ def _sections(places: Places) -> Mapping[int, int]:
 
 def _refused(reason: str, places: Places, at: int, piece: re.Match[str]) -> Exception:
     """Return why raw XML is refused once a piece is read: it may be malformed before the end of that."""
-    fault = fault_of(places.text[len(_BEGIN) : piece.end()], _BEGIN, is_whole=False)
+    fault = find_xml_error(places.text[len(_BEGIN) : piece.end()], _BEGIN, is_whole=False)
     text = places.text[len(_BEGIN) : -len(_END)]
     return fault or RawXmlError(reason, text, at - len(_BEGIN))
 

@@ -17,7 +17,7 @@ _SHOWN = 3
 def check_relative_mesh_paths(
     robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC, *, start: Path | None = None
 ) -> Iterator[Diagnostic]:
-    """Yield one warning about relative paths of meshes that exist beside the robot's file, but not from `folder`.
+    """Yield one warning about relative paths of meshes that exist next to the robot's file but not from `folder`.
 
     `folder` is where the other file with the same paths is written: the URDF of a spec, or the spec of a URDF, by
     `code`. A mesh that is in neither place is reported as missing elsewhere. `start` is where the paths of a robot

@@ -28,7 +28,7 @@ from jinja2.visitor import NodeTransformer
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.diagnostics.suggest import did_you_mean
-from linkforge_compile.formats.environment import FILTERS, OPTIONS, describe, finalize, require_text
+from linkforge_compile.formats.environment import FILTERS, OPTIONS, finalize, kind_of, require_text
 from linkforge_compile.limits import Budget, Limit
 
 _READING = ("get", "has", "find", "is", "to", "volume")
@@ -41,7 +41,7 @@ _MOST_INDENTED = 32
 """Blanks a level in JSON."""
 
 _STEPS_OF_A_CALL = 10
-"""What a call or an include takes beside a round of a loop."""
+"""Steps that a call or an include costs; a round of a loop costs one."""
 
 _WIDE_FORMAT = re.compile(
     r"%(?:\([^%]*\))?[-+ #0]*(?:\*|\d{5}|\d*\.(?:\*|\d{5}))"  # of %
@@ -77,7 +77,7 @@ class _StrictUndefined(StrictUndefined):
             return f"this is None, which has no '{name}'; test it with '{{% if … %}}'"
         if isinstance(owner, NamedTable) and name in {"keys", "values", "items"}:
             return f"this has no '{name}'; it is a list: loop over it, or over its 'names'"
-        whole = "this" if isinstance(owner, NamedTable | Mapping) else describe(owner)
+        whole = "this" if isinstance(owner, NamedTable | Mapping) else kind_of(owner)
         return f"{whole} has no '{name}'{did_you_mean(str(name), _names_in(owner))}"
 
 

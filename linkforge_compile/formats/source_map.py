@@ -35,7 +35,7 @@ class SourceMap:
     lines: tuple[tuple[Segment, ...], ...]
 
     def at(self, line: int, column: int | None = None) -> Provenance | None:
-        """Return where a line was written, or more closely what stands at a column of it.
+        """Return where a line was written, or, for a column, where the attribute there was written.
 
         Both count from 1. None for a line without origin, and beyond the document.
         """

@@ -119,7 +119,7 @@ def find_xml_fault(text: str) -> XmlFault | None:
     """Return why a text is no well-formed XML in UTF-8; None where it is."""
     from xml.parsers import expat
 
-    from linkforge_compile.source.malformed_xml import ENDS_BEFORE, fault_of
+    from linkforge_compile.source.malformed_xml import ENDS_BEFORE, find_xml_error
 
     text = text.encode("utf-8", "backslashreplace").decode()
     # expat takes prefixes without a declaration, as the URDF of many vendors has them.
@@ -127,7 +127,7 @@ def find_xml_fault(text: str) -> XmlFault | None:
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
-        fault = fault_of(text)
+        fault = find_xml_error(text)
         problem = fault.problem if fault else expat.ErrorString(error.code)
         lines = text.split("\n")
         line = lines[error.lineno - 1].strip() if error.lineno <= len(lines) else ""

@@ -22,7 +22,7 @@ _MOST_NAMES = 1000
 
 
 class OutsideError(Exception):
-    """A template, or what one includes, lies behind a link that leads out of the folders that may be read."""
+    """A template, or what one includes, is reached by a link that leads out of the folders that may be read."""
 
     def __init__(self, path: Path, roots: Roots) -> None:
         self.path, self.roots = path, roots
@@ -111,7 +111,7 @@ class FolderLoader(FileSystemLoader):
 
 
 def span_of_line(file: SourceFile, number: int) -> Span:
-    """Return what stands on a line: Jinja2 knows no columns."""
+    """Return the text of a line; Jinja2 reports no columns."""
     text = file.line(number)
     begin = len(text) - len(text.lstrip()) + 1
     return Span(file, number, begin, number, max(begin, len(text.rstrip()) + 1))

@@ -152,14 +152,14 @@ class TemplateFolder:
 
         """
         from linkforge_compile.formats.template_faults import find_xml_fault
-        from linkforge_compile.formats.xml_document import document_of, write
+        from linkforge_compile.formats.xml_document import parse_rendered, write
 
         rendered = self._text(template, context).lstrip()
         if fault := find_xml_fault(rendered):
             line = self._loader.place_of_line(template, fault.line)
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
         try:
-            return write(document_of(rendered, most_nested=MAX_NESTED_ELEMENTS), pretty=pretty)
+            return write(parse_rendered(rendered, most_nested=MAX_NESTED_ELEMENTS), pretty=pretty)
         except RobotGeneratorError as error:
             raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=error),)) from None
 

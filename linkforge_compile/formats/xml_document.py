@@ -94,7 +94,7 @@ Content: TypeAlias = "XmlNode | str"
 """An element; or as written: a text, an element of one tag, a comment, CDATA, an instruction or a declaration."""
 
 
-def document_of(text: str, *, most_nested: float = inf) -> XmlNode:
+def parse_rendered(text: str, *, most_nested: float = inf) -> XmlNode:
     """Return what a template renders as the content of an element without tags.
 
     Elements that are not closed, and tags that close nothing, are left to the readers of the document.
@@ -181,7 +181,7 @@ def without_marks(text: str) -> str:
 
 
 def inside_text(number: int, key: str, attributes: str, content: str) -> str:
-    """Return an element that is not written: it adds to the element that `key` names beside it."""
+    """Return an element that is not written: it adds to the sibling element that `key` names."""
     return f'<{_INSIDE} id="{number}" key="{escaped(key)}"><{_ATTRIBUTES}{attributes}/>{content}</{_INSIDE}>'
 
 

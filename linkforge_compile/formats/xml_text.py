@@ -60,7 +60,7 @@ XML_BLANKS = " \t\r\n"
 
 
 class Xml(str):
-    """Text that is XML already; templates write it as it stands."""
+    """Text that is XML already; templates write it unchanged."""
 
     __slots__ = ()
 
@@ -102,7 +102,7 @@ def spelled(value: Spellable) -> str:
 
 
 def escaped(text: str) -> str:
-    """Return text as it stands in an attribute or between tags.
+    """Return text as it is written in an attribute or between tags.
 
     Raises:
         RobotGeneratorError: for a character that XML 1.0 cannot hold.
@@ -166,9 +166,9 @@ def is_xml_name(name: str) -> bool:
 def _is_read_by_all(name: str) -> bool:
     # Beyond ASCII, XML 1.0 allows fewer names in its fourth edition than in its fifth. expat, and with it xacro and
     # Python's own parsers, keeps to the fourth, so a name of the fifth would be lost on them.
-    from linkforge_compile.source.malformed_xml import fault_of
+    from linkforge_compile.source.malformed_xml import find_xml_error
 
-    return is_writable(name) and all(fault_of(f"<{local}/>") is None for local in name.split(":"))
+    return is_writable(name) and all(find_xml_error(f"<{local}/>") is None for local in name.split(":"))
 
 
 def harmless_in_comment(text: str) -> str:

@@ -7,8 +7,9 @@ exactly raises CannotRepresentError, and its parent keeps the element as raw XML
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
@@ -21,6 +22,8 @@ from linkforge_compile.units import Dimension
 
 Read = Callable[["ElementReader"], YamlNode | None]
 """A function that reads an element; it returns None for one that means the same as its absence."""
+
+N = TypeVar("N", bound=YamlNode | None)
 
 Named = dict[str, tuple[XmlAttribute, YamlNode]]
 """Nodes by name, each with the attribute that names it."""
@@ -62,6 +65,11 @@ class ElementReader:
             raise self.cannot_represent(f"it has no '{name}'")
         return attribute
 
+    def require_attributes(self, names: Iterable[str]) -> None:
+        """Raise CannotRepresentError unless the element has these attributes."""
+        if missing := [name for name in names if name not in self.element.values]:
+            raise self.cannot_represent(f"it has no {' and no '.join(map(repr, missing))}")
+
     def text(self, name: str) -> YamlScalar | None:
         """Take an attribute as text; None where there is none."""
         return self.required_text(name) if name in self._attributes else None
@@ -81,26 +89,15 @@ class ElementReader:
             raise CannotRepresentError(f"{name} is neither true nor false: '{attribute.value}'", attribute.span)
         return None if value is default else self.draft.word(str(value).lower(), attribute)
 
-    def number(
-        self, name: str, unit: Dimension | None = None, *, default: float | None = None, above: float | None = None
-    ) -> YamlScalar | None:
-        """Take an attribute as a number greater than `above`; None where there is none, or it is the default."""
+    def number(self, name: str, unit: Dimension | None = None, *, default: float | None = None) -> YamlScalar | None:
+        """Take an attribute as a number; None where there is none, or it is the default."""
         if name not in self._attributes:
             return None
         attribute = self._attributes.pop(name)
         node = self.draft.number(attribute.value, attribute, unit)
         if node is None:
             raise CannotRepresentError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
-        if above is not None and float(attribute.value) <= above:
-            raise CannotRepresentError(f"{name} must be above {above:g}, found {node.text}", attribute.span)
         return None if default is not None and float(attribute.value) == default else node
-
-    def required_number(self, name: str, unit: Dimension | None = None, *, above: float | None = None) -> YamlScalar:
-        """Take an attribute as a number; without it the element cannot be represented."""
-        node = self.number(name, unit, above=above)
-        if node is None:
-            raise self.cannot_represent(f"it has no '{name}'")
-        return node
 
     def numbers(self, name: str, count: int, unit: Dimension | None = None) -> YamlList | None:
         """Take an attribute as a list of `count` numbers; None where there is none."""
@@ -113,13 +110,6 @@ class ElementReader:
         if None in nodes:
             raise CannotRepresentError(f"{name} takes finite numbers, found '{attribute.value}'", attribute.span)
         return YamlList(tuple([node for node in nodes if node is not None]), *attribute.bounds)
-
-    def required_numbers(self, name: str, count: int, unit: Dimension | None = None) -> YamlList:
-        """Take an attribute as a list of `count` numbers; without it the element cannot be represented."""
-        nodes = self.numbers(name, count, unit)
-        if nodes is None:
-            raise self.cannot_represent(f"it has no '{name}'")
-        return nodes
 
     # Text
 
@@ -149,13 +139,15 @@ class ElementReader:
         """Whether a child of a tag is not taken yet."""
         return any(child.tag == tag for child in self._children)
 
-    def child(self, tag: str, read: Read) -> YamlNode | None:
+    def child(self, tag: str, read: Read, *, is_required: bool = False) -> YamlNode | None:
         """Take the first child of a tag; None where there is none, or it is kept raw.
 
-        Further children of the tag stay untaken.
+        Where it `is_required`, this element cannot be represented without it. Further children of the tag stay untaken.
         """
         child = self._first(tag)
-        return self.try_read(child, read) if child else None
+        if child is None:
+            return None
+        return self.read(child, read) if is_required else self.try_read(child, read)
 
     def essential_child(self, tag: str, read: Callable[[ElementReader], YamlNode]) -> YamlNode | None:
         """Take the first child of a tag as `child` does, but report an error if it cannot be represented."""
@@ -201,25 +193,21 @@ class ElementReader:
             self.draft.note_source(node, child)
         return node
 
-    def read(self, child: XmlElement, read: Callable[[ElementReader], YamlNode]) -> YamlNode:
+    def read(self, child: XmlElement, read: Callable[[ElementReader], N]) -> N:
         """Take a child; where it cannot be represented, neither can this element."""
         reader = ElementReader(self.draft, child)
         node = read(reader)
         self._finish(reader)
-        self.draft.note_source(node, child)
+        if node is not None:
+            self.draft.note_source(node, child)
         return node
 
-    def optional(self, tag: str, read: Callable[[ElementReader], YamlNode]) -> YamlNode | None:
-        """Take the first child of a tag as `read` does; None where there is none."""
-        child = self._first(tag)
-        return self.read(child, read) if child else None
-
-    def required(self, tag: str, read: Callable[[ElementReader], YamlNode]) -> YamlNode:
+    def required(self, tag: str, read: Callable[[ElementReader], N]) -> N:
         """Take the first child of a tag as `read` does; without it this element cannot be represented."""
-        node = self.optional(tag, read)
-        if node is None:
+        child = self._first(tag)
+        if child is None:
             raise self.cannot_represent(f"it has no <{tag}>")
-        return node
+        return self.read(child, read)
 
     def _first(self, tag: str) -> XmlElement | None:
         return next((child for child in self._children if child.tag == tag), None)

@@ -6,27 +6,21 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import TypeAlias
 
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Material, Mesh, Sphere
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint, JointLimits, JointType
-from linkforge_compile.core.models.link import COLLISION, KINDS, VISUAL, shortest_setting
+from linkforge_compile.core.models.link import COLLISION, KINDS, VISUAL, Collision, Inertial, Visual, shortest_setting
+from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics.codes.importing import ENDS_KEPT_RAW
 from linkforge_compile.importers.element_reader import ElementReader, Named
-from linkforge_compile.importers.elements import (
-    Names,
-    read_element,
-    read_geometry,
-    read_numbers,
-    read_pose,
-    require_numbers,
-)
+from linkforge_compile.importers.elements import Entries, Names, read_element, read_field, read_numbers, require_parts
 from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, is_same, number_of
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlElement
-from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
-_MOMENTS = ("ixx", "iyy", "izz")
-_PRODUCTS = ("ixy", "ixz", "iyz")
-_SHAPE_AND_POSE = ("box", "cylinder", "sphere", "capsule", "mesh", "origin")
+SHAPES: Mapping[str, type[Element]] = {kind.TAG: kind for kind in (Box, Sphere, Cylinder, Capsule, Mesh)}
+_SHAPE_AND_POSE = (*SHAPES, "origin")
 
 
 Rgba: TypeAlias = tuple[float | None, ...]
@@ -45,7 +39,7 @@ def read_link(link: ElementReader, palette: Palette, blocks: Blocks) -> YamlMap:
         # The order of these keys is the order of the output.
         **dict(reversed(shapes.items()) if kinds[:1] == [COLLISION] else shapes),
         shape_order=_shape_order(link, kinds, read[0].span) if read else None,
-        inertial=link.child("inertial", _inertial),
+        inertial=link.child("inertial", lambda inertial: read_element(inertial, Inertial)),
         gazebo=blocks.take(link.element.get("name") or ""),
     )
 
@@ -58,14 +52,51 @@ def _shape_order(link: ElementReader, kinds: list[str], where: Span) -> YamlNode
 
 
 def _visual(visual: ElementReader, palette: Palette) -> YamlNode:
-    name, geometry = visual.text("name"), visual.required("geometry", read_geometry)
-    origin, material = visual.child("origin", read_pose), visual.child("material", palette.read_used)
-    return visual.map(name=name, **_entries(geometry), origin=origin, material=material)
+    return read_element(
+        visual,
+        Visual,
+        first=_name_and_shape(visual),
+        material=lambda visual: visual.child("material", palette.read_used),
+    )
 
 
 def _collision(collision: ElementReader) -> YamlNode:
-    name, geometry = collision.text("name"), collision.required("geometry", read_geometry)
-    return collision.map(name=name, **_entries(geometry), origin=collision.child("origin", read_pose))
+    return read_element(collision, Collision, first=_name_and_shape(collision))
+
+
+def _name_and_shape(owner: ElementReader) -> Entries:
+    """Read the entries that come first in the language: a name, and the shape under its own key."""
+    name, geometry = owner.text("name"), owner.required("geometry", _geometry)
+    return {"name": name, **_entries(geometry)}
+
+
+def _geometry(geometry: ElementReader) -> YamlMap:
+    """Read a shape as a map with its tag as the only key."""
+    shapes = geometry.remaining()
+    if len(shapes) != 1:
+        raise geometry.cannot_represent(f"a geometry is one shape, found {len(shapes) or 'none'}")
+    [shape] = shapes
+    kind = SHAPES.get(shape.tag)
+    if kind is None:
+        raise geometry.cannot_represent(f"there is no shape named '{shape.tag}'")
+    node = geometry.read(shape, lambda reader: _shape(reader, kind))
+    geometry.pass_rest_up()
+    return geometry.draft.map_of({shape.tag: node}, shape)
+
+
+def _shape(shape: ElementReader, kind: type[Element]) -> YamlNode:
+    """Read a shape; one of which nothing but its first field is given is that alone."""
+    node = read_element(shape, Mesh, scale=_scale) if kind is Mesh else read_element(shape, kind)
+    [first, *others] = node
+    return first.value if not others else node
+
+
+def _scale(mesh: ElementReader) -> YamlNode | None:
+    """Read the scale of a mesh: one number for three equal ones."""
+    scale = read_field(mesh, Mesh, "scale")
+    if not isinstance(scale, YamlList):
+        return scale
+    return scale.items[0] if all(is_same(item, scale.items[0]) for item in scale) else scale
 
 
 def _entries(node: YamlNode) -> dict[str, YamlNode]:
@@ -85,27 +116,6 @@ def _short_collisions(link: ElementReader, visuals: list[YamlNode], collisions: 
 def _shape_and_pose(visual: YamlMap) -> YamlMap:
     entries = {entry.name: entry for entry in visual if entry.name in _SHAPE_AND_POSE}
     return YamlMap(entries, visual.place, visual.begin, visual.end)
-
-
-def _inertial(inertial: ElementReader) -> YamlNode:
-    mass, inertia = inertial.required("mass", _mass), inertial.required("inertia", _inertia)
-    return inertial.map(mass=mass, origin=inertial.child("origin", read_pose), inertia=inertia)
-
-
-def _mass(mass: ElementReader) -> YamlNode:
-    value = mass.required_number("value")
-    if value.text.startswith("-"):
-        raise mass.cannot_represent(f"the mass must be at least 0 kg, found {value.text}")
-    mass.pass_rest_up()
-    return value
-
-
-def _inertia(inertia: ElementReader) -> YamlNode:
-    moments = {key: inertia.required_number(key) for key in _MOMENTS}
-    for key in _PRODUCTS:
-        if inertia.element.get(key) is None:
-            raise inertia.cannot_represent(f"it has no '{key}'")
-    return inertia.map(**moments, **{key: inertia.number(key, default=0) for key in _PRODUCTS})
 
 
 JOINT_TYPES = tuple(map(str, JointType))
@@ -161,7 +171,7 @@ def _limits(limit: ElementReader, joint_type: JointType) -> YamlNode:
         limit.draft.diagnostics.append(ENDS_KEPT_RAW.at(limit.span, lower=f"{lower:g}", upper=f"{upper:g}"))
         reversed_ends = ("lower", "upper")
     if joint_type not in NEED_LIMITS:
-        require_numbers(limit, JointLimits)
+        require_parts(limit, JointLimits)
     # If a joint needs limits, incomplete ones are read, and compiling the spec reports what they lack.
     return limit.map(**read_numbers(limit, JointLimits, joint_type.motion, without=reversed_ends))
 
@@ -220,25 +230,10 @@ class Palette:
 
 
 def _definition(material: ElementReader) -> YamlMap:
-    color, texture = material.optional("color", _color), material.child("texture", _texture)
-    if color is None and texture is None:
+    """Read what a material has besides its name."""
+    if not (material.has_child("color") or material.has_child("texture")):
         raise material.cannot_represent("it has neither a color nor a texture that the language can say")
-    return material.map(color=color, texture=texture)
-
-
-def _color(color: ElementReader) -> YamlNode:
-    rgba = color.required_numbers("rgba", 4)
-    if any(not 0 <= float(part) <= 1 for part in (color.element.get("rgba") or "").split()):
-        raise color.cannot_represent(f"its components must be from 0 to 1, found '{color.element.get('rgba')}'")
-    color.pass_rest_up()
-    *rgb, opacity = rgba
-    return color.draft.list_of(rgb, rgba) if is_same(opacity, color.draft.number("1", rgba)) else rgba
-
-
-def _texture(texture: ElementReader) -> YamlNode:
-    file = texture.required_text("filename")
-    texture.pass_rest_up()
-    return file
+    return read_element(material, Material)
 
 
 def _declared_after_links(robot: XmlElement) -> set[XmlElement]:

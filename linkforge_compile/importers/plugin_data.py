@@ -3,42 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from itertools import groupby
 from typing import NamedTuple
 
-from linkforge_compile.core.fields import Bound, Flag, Number, Text, field_specs
-from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.fields import Number, Spec, field_specs
+from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.raw_xml import is_name, is_name_as_text, known_tag, with_prefix
 from linkforge_compile.importers.spec_draft import CannotRepresentError, number_of
+from linkforge_compile.importers.texts import exact_number, is_flag, is_normal, is_text, read_text, read_word, text_of
 from linkforge_compile.source.xml_tree import XmlElement
-from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import is_in_full, number_text
-
-
-def read_text(element: ElementReader) -> YamlScalar:
-    """Read an element that contains text only."""
-    node = element.draft.word(text_of(element.element), element.span)
-    element.take_text()
-    element.require_used_up()
-    return node
-
-
-def read_word(element: ElementReader) -> YamlScalar:
-    """Read an element that contains text only, and not only blanks."""
-    node = read_text(element)
-    if not node.text.strip():
-        raise element.cannot_represent("it is empty")
-    return node
-
-
-def text_of(element: XmlElement) -> str:
-    """Return the text of an element, without the space around it if that has line breaks."""
-    text = element.text
-    stripped = text.strip()
-    around = (text.partition(stripped)[0], text.rpartition(stripped)[2]) if stripped else (text, "")
-    return stripped if any("\n" in space for space in around) else text
 
 
 def read_free(element: ElementReader, around: str | None = None) -> YamlNode:
@@ -99,27 +76,6 @@ def take_free_children(owner: ElementReader) -> dict[str, YamlNode | None]:
         groups[child.tag].append(child)
     free = {tag: group for tag, group in groups.items() if not tag.startswith("_") and all(map(is_free, group))}
     return {tag: _one_or_list(owner, group, owner.element.tag) for tag, group in free.items()}
-
-
-def take_texts(owner: ElementReader, children: Iterable[XmlElement]) -> dict[str, YamlNode | None]:
-    """Take those of the children that contain text only and whose tag does not repeat."""
-    counts = Counter(child.tag for child in owner.remaining())
-    texts = [one for one in children if not one.values and not one.children and counts[one.tag] == 1]
-    return {one.tag: owner.read(one, read_text) for one in texts if not one.tag.startswith("_")}
-
-
-def exact_number(element: XmlElement) -> float | None:
-    """Return the number that an element contains, if nothing else is in it and its spelling is normal."""
-    if element.values or element.children:
-        return None
-    text = element.text.strip()
-    value = number_of(text)
-    return value if value is not None and number_text(value) == text else None
-
-
-def is_empty(node: YamlNode) -> bool:
-    """Whether a node is an empty map."""
-    return isinstance(node, YamlMap) and not len(node)
 
 
 def _one_or_list(owner: ElementReader, group: list[XmlElement], known: str | None) -> YamlNode | None:
@@ -212,16 +168,8 @@ def _read_plugin(plugin: ElementReader, *, is_named: bool) -> YamlMap:
     return plugin.map(name=name if is_named else None, filename=filename, parameters=parameters)
 
 
-def _is_text(child: XmlElement) -> bool:
-    return not child.values and not child.children and bool(child.text.strip())
-
-
-def _is_flag(child: XmlElement) -> bool:
-    return _is_text(child) and child.text.strip() in ("true", "false")
-
-
 def _is_number(child: XmlElement) -> bool:
-    is_full = _is_text(child) and is_in_full(child.text.strip()) and number_of(child.text) is not None
+    is_full = is_text(child) and is_in_full(child.text.strip()) and number_of(child.text) is not None
     return is_full or exact_number(child) is not None
 
 
@@ -230,16 +178,8 @@ def _is_whole_number(child: XmlElement) -> bool:
     return value is not None and value.is_integer() and child.text.strip().lstrip("-").isdigit()
 
 
-def _is_bounded(bound: Bound) -> Callable[[XmlElement], bool]:
-    def is_bounded(child: XmlElement) -> bool:
-        value = exact_number(child)
-        return value is not None and bound.holds(value)
-
-    return is_bounded
-
-
 def _is_vector(child: XmlElement) -> bool:
-    values = [number_of(part) for part in child.text.split()] if _is_text(child) else []
+    values = [number_of(part) for part in child.text.split()] if is_text(child) else []
     return len(values) == 3 and [None if one is None else number_text(one) for one in values] == child.text.split()
 
 
@@ -251,19 +191,10 @@ class _Tag(NamedTuple):
     read: Callable[[ElementReader], YamlNode]
 
 
-def _tags_of_fields() -> Mapping[str, _Tag]:
-    """Return the tags that are fields of GazeboElement."""
-    tags: dict[str, _Tag] = {}
-    for key, spec in field_specs(GazeboElement).items():
-        tag = (spec.xml or "").removesuffix("/text()")
-        match spec:
-            case Number(bound=Bound() as bound):
-                tags[tag] = _Tag(key, _is_bounded(bound), ElementReader.text_number)
-            case Flag():
-                tags[tag] = _Tag(key, _is_flag, read_word)
-            case Text(xml=str() as xml) if xml.endswith("/text()"):
-                tags[tag] = _Tag(key, _is_text, read_word)
-    return tags
+def _tag_of_field(key: str, spec: Spec) -> _Tag:
+    """Return the tag that is a field of GazeboElement."""
+    read = ElementReader.text_number if isinstance(spec, Number) else read_word
+    return _Tag(key, lambda child: is_normal(child, spec), read)
 
 
 _NUMBERS = (
@@ -273,9 +204,9 @@ _NUMBERS = (
 _FLAGS = ("selfCollide", "gravity", "turnGravityOff", "preserveFixedJoint", "disableFixedJointLumping")
 
 _TAGS: Mapping[str, _Tag] = {
-    **_tags_of_fields(),
+    **{tag: _tag_of_field(key, field_specs(GazeboElement)[key]) for key, tag in ELEMENT_TAGS.items()},
     "fdir1": _Tag("fdir1", _is_vector, ElementReader.text_numbers),
     "maxContacts": _Tag("maxContacts", _is_whole_number, ElementReader.text_number),
     **{tag: _Tag(tag, _is_number, ElementReader.text_number) for tag in _NUMBERS},
-    **{tag: _Tag(tag, _is_flag, read_word) for tag in _FLAGS},
+    **{tag: _Tag(tag, is_flag, read_word) for tag in _FLAGS},
 }

@@ -10,14 +10,13 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.fields import Child, Number, Reference, Spec, Text, Vector, field_specs
-from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Mesh, Sphere, Transform
+from linkforge_compile.core.fields import Axis, Child, Number, Spec, Text, Vector, field_specs
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint
-from linkforge_compile.core.models.link import InertiaTensor
+from linkforge_compile.core.models.link import Collision, Inertial
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import LACKS_PART, NAME_IS_TAKEN, NO_NUMBERS, NO_TYPE_OF_JOINT
-from linkforge_compile.importers.link import JOINT_TYPES
+from linkforge_compile.importers.link import JOINT_TYPES, SHAPES
 from linkforge_compile.importers.spec_draft import number_of
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
 
@@ -40,40 +39,34 @@ class _Part(NamedTuple):
 
 
 def _part_of(kind: type[Element]) -> _Part:
-    """Return what readers read of an element of a class."""
-    specs = {spec.xml.removeprefix("@"): spec for spec in field_specs(kind).values() if spec.xml}
-    numbers = {
-        name: 3 if isinstance(spec, Vector) else 1 for name, spec in specs.items() if isinstance(spec, Number | Vector)
-    }
-    return _Part(numbers, tuple(name for name, spec in specs.items() if _is_required(spec)))
+    """Return what readers read of the attributes of a class."""
+    return _part({spec.xml[1:]: spec for spec in field_specs(kind).values() if spec.xml and spec.xml[0] == "@"})
+
+
+def _part(attributes: Mapping[str, Spec]) -> _Part:
+    counts = {Number: 1, Vector: 3, Axis: 3}
+    numbers = {name: counts[type(spec)] for name, spec in attributes.items() if type(spec) in counts}
+    return _Part(numbers, tuple(name for name, spec in attributes.items() if _is_required(spec)))
 
 
 def _is_required(spec: Spec) -> bool:
-    if isinstance(spec, Number):
-        return spec.is_required_in_urdf
-    return bool(spec.example) and isinstance(spec, Text | Vector)
+    return spec.is_required_in_urdf or (bool(spec.example) and isinstance(spec, Text | Vector))
 
 
-def _joint_parts() -> Mapping[str, _Part]:
-    """Return what readers read of the children of a joint, by tag."""
+def _parts_of(kind: type[Element]) -> Mapping[str, _Part]:
+    """Return what readers read of the children of a class that have attributes, by tag."""
     parts: dict[str, _Part] = {}
-    for spec in field_specs(Joint).values():
+    for spec in field_specs(kind).values():
         tag, _, attribute = (spec.xml or "").partition("/@")
-        match spec:
-            case Child(kinds=(kind,)):
-                parts[tag] = _part_of(kind)
-            case Reference():
-                parts[tag] = _Part(required=(attribute,))
-            case Vector():
-                parts[tag] = _Part({attribute: 3})
+        if isinstance(spec, Child) and len(spec.kinds) == 1:
+            parts[tag] = _part_of(spec.kinds[0])
+        elif attribute:
+            parts[tag] = _part({attribute: spec})
     return parts
 
 
-_ORIGIN = _part_of(Transform)
-_JOINT = _joint_parts()
-_MOMENTS = _part_of(InertiaTensor)._replace(required=("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
-_INERTIAL = {"origin": _ORIGIN, "mass": _Part({"value": 1}, ("value",)), "inertia": _MOMENTS}
-_SHAPES = {kind.TAG: _part_of(kind) for kind in (Box, Sphere, Cylinder, Capsule, Mesh)}
+_SHAPE, _JOINT, _INERTIAL = map(_parts_of, (Collision, Joint, Inertial))
+_BODIES = {tag: _part_of(kind) for tag, kind in SHAPES.items()}
 
 
 def find_refusals(robot: XmlElement) -> Iterator[Refusal]:
@@ -108,19 +101,19 @@ def _in_link(link: XmlElement) -> Iterator[Refusal]:
 
 
 def _in_inertial(inertial: XmlElement) -> Iterator[Refusal]:
-    for tag in ("mass", "inertia"):
-        if _first(inertial, tag) is None:
+    for tag, part in _INERTIAL.items():
+        if part.required and _first(inertial, tag) is None:
             yield _lacks(inertial, f"<{tag}>")
     yield from _in_parts(inertial, _INERTIAL)
 
 
 def _in_shape(shape: XmlElement) -> Iterator[Refusal]:
-    yield from _in_parts(shape, {"origin": _ORIGIN})
+    yield from _in_parts(shape, _SHAPE)
     geometry = _first(shape, "geometry")
     if geometry is None:
         yield _lacks(shape, "<geometry>")
     elif body := next(iter(geometry.children), None):
-        if part := _SHAPES.get(body.tag):
+        if part := _BODIES.get(body.tag):
             yield from _inside(geometry, _inside(body, _in_part(body, part)))
     else:
         yield from _inside(geometry, [_lacks(geometry, "shape, such as <box size='1 1 1'/>")])

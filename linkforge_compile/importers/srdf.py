@@ -190,7 +190,7 @@ def _state(state: ElementReader, names: SemanticNames) -> YamlMap:
     state.attribute("name")
     positions: dict[str, YamlNode | None] = {}
 
-    def read(joint: ElementReader) -> YamlNode:
+    def read(joint: ElementReader) -> YamlNode | None:
         name = read_reference(joint, "name", "joint", names.by_kind)
         if name.text in positions:
             raise CannotRepresentError(f"joint '{name.text}' has a value already", name.span)
@@ -205,15 +205,14 @@ def _state(state: ElementReader, names: SemanticNames) -> YamlMap:
     return state.map(**positions)
 
 
-def _position(joint: ElementReader, unit: Dimension | None) -> YamlNode:
+def _position(joint: ElementReader, unit: Dimension | None) -> YamlNode | None:
     """Read a position: one number, or a list of bare ones for several degrees of freedom."""
-    count = len((joint.element.get("value") or "").split())
-    if count == 1:
-        return joint.required_number("value", unit)
-    numbers = joint.required_numbers("value", count)
-    if not len(numbers):
-        raise CannotRepresentError("value is empty", numbers.span)
-    return numbers
+    joint.require_attributes(["value"])
+    attribute = joint.element.attributes["value"]
+    if not attribute.value.strip():
+        raise CannotRepresentError("value is empty", attribute.span)
+    count = len(attribute.value.split())
+    return joint.number("value", unit) if count == 1 else joint.numbers("value", count)
 
 
 def _passive_joints(robot: ElementReader, names: SemanticNames) -> YamlNode | None:
@@ -307,5 +306,5 @@ def _sphere_approximations(robot: ElementReader, names: SemanticNames) -> Named:
 
 
 def _sphere(sphere: ElementReader) -> YamlMap:
-    center = sphere.required_numbers("center", 3)
-    return sphere.map(center=center, radius=sphere.required_number("radius"))
+    sphere.require_attributes(["center", "radius"])
+    return sphere.map(center=sphere.numbers("center", 3), radius=sphere.number("radius"))

@@ -19,8 +19,8 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
-from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
-from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, document_of
+from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
+from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, parse_xml
 
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000
@@ -43,7 +43,7 @@ def read_xml(file: SourceFile, sink: Diagnostics, *, is_ours: bool = False) -> X
     bounds = _Bounds(file, is_ours=is_ours)
     try:
         bounds.require()
-        document = document_of(file, bounds.places)
+        document = parse_xml(file, bounds.places)
     except _RefusedError as refused:
         sink.report_all((*bounds.instructions_before(refused.at), refused.diagnostic))
         return None
@@ -96,7 +96,7 @@ class _Bounds:
                 continue
             if piece[0].startswith(_DOCUMENT_TYPE):
                 place = self._span(piece, len(_DOCUMENT_TYPE))
-                raise fault_of(self.places.text) or _RefusedError(piece.start(), DOCUMENT_TYPE.at(place))
+                raise find_xml_error(self.places.text) or _RefusedError(piece.start(), DOCUMENT_TYPE.at(place))
             if self._is_in_text and kind != "rest":
                 # CDATA and the text around it are one text, which ends here.
                 self._count_inside(piece, 1)
@@ -141,7 +141,8 @@ class _Bounds:
 
     def _refused(self, piece: re.Match[str], diagnostic: Diagnostic) -> Exception:
         """Return the exception for a piece: it is malformed if the text up to its end is."""
-        return fault_of(self.places.text[: piece.end()], is_whole=False) or _RefusedError(piece.start(), diagnostic)
+        before = self.places.text[: piece.end()]
+        return find_xml_error(before, is_whole=False) or _RefusedError(piece.start(), diagnostic)
 
     def _span(self, piece: re.Match[str], length: int) -> Span:
         return self._file.between(piece.start(), piece.start() + length)

@@ -81,7 +81,7 @@ class Fields(ObjectContext):
         if isinstance(node, YamlScalar) and isinstance(node.value, bool):
             return node.value
         if isinstance(node, YamlScalar) and (truth := YAML_1_1_BOOLEANS.get(node.text.lower())):
-            self.report(TRUTH_AS_TEXT, node, name=node.text, meant=truth)
+            self.report(TRUTH_AS_TEXT, node, name=node.text, expected=truth)
         elif node is not None:
             self.report_wrong_kind(node, key, "true or false")
         return None

@@ -1,4 +1,4 @@
-"""Warn of names in a module that do not get its prefix: in parameters of plugins, raw XML, and absolute topics."""
+"""Warn of names and prefixes in a module that do not get its prefix: of plugins, hardware, raw XML, and topics."""
 
 from __future__ import annotations
 
@@ -8,9 +8,15 @@ from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.codes.model import ABSOLUTE_TOPIC, UNPREFIXED_NAME, UNPREFIXED_TOPICS
+from linkforge_compile.diagnostics.codes.model import (
+    ABSOLUTE_TOPIC,
+    UNPREFIXED_HARDWARE,
+    UNPREFIXED_NAME,
+    UNPREFIXED_TOPICS,
+)
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
@@ -27,6 +33,9 @@ collision of a contact sensor."""
 # In a force-torque sensor, `frame` is one of three words.
 _NOT_A_NAME = re.compile(r"[-+.\d\s]*|true|false|child|parent|sensor|__.*__", re.IGNORECASE)
 _MOST_SHOWN = 5
+
+_PREFIX_KEY = re.compile(r"(?!.*(?:topic|namespace)).*prefix", re.IGNORECASE)
+"""A hardware parameter for what the names of joints, sensors and gpios begin with: `tf_prefix`, `prefix`."""
 
 _LIST_MARKS = " \t\r\n[](){}'\""
 """Characters around a list of names, and around each name."""
@@ -46,11 +55,22 @@ class PassthroughText(NamedTuple):
     key: str = ""
 
 
+class HardwarePrefix(NamedTuple):
+    """A hardware parameter that the names of a ros2_control system begin with, in the file; one of them is `part`."""
+
+    control: str
+    key: str
+    text: str
+    where: Span
+    part: str
+
+
 class PassthroughTexts(NamedTuple):
     """The texts of a file, without its modules, that get no prefix: those that plugins read, and absolute topics."""
 
     plugin_texts: tuple[PassthroughText, ...]
     absolute_topics: tuple[PassthroughText, ...]
+    hardware_prefixes: tuple[HardwarePrefix, ...]
     tree: YamlNode
     prefix: str
     """The prefix of this module, without those of the files that use it."""
@@ -78,7 +98,24 @@ def passthrough_texts(
         if sensor.source and sensor.topic and sensor.topic.startswith("/")
     )
     own = (text for text in (*texts, *_raw_texts(tree)) if text.where.file not in users)
-    return PassthroughTexts(tuple(own), tuple(topics), tree, prefix, is_shared)
+    hardware = (one for control in robot.ros2_controls for one in _prefixes_of(control) if one.where.file not in users)
+    return PassthroughTexts(tuple(own), tuple(topics), tuple(hardware), tree, prefix, is_shared)
+
+
+def _prefixes_of(control: Ros2Control) -> Iterator[HardwarePrefix]:
+    """Yield the parameters of a system that some of its names begin with; an empty one is where each name begins."""
+    names = [
+        *((sensor.name, f"sensor '{sensor.name}'") for sensor in control.sensors),
+        *((gpio.name, f"gpio '{gpio.name}'") for gpio in control.gpios),
+        *((joint.name, f"joint '{joint.name}'") for joint in control.joints),
+    ]
+    source = control.source
+    for key, text in control.parameters.items():
+        if source and _PREFIX_KEY.fullmatch(key):
+            # Kinova's descriptions write quotes around it.
+            part = next((part for name, part in names if name.startswith(text.strip(_LIST_MARKS))), None)
+            if part:
+                yield HardwarePrefix(control.name, key, text, source.at("parameters", key), part)
 
 
 def prefix_warnings(texts: PassthroughTexts, robot: Robot) -> Iterator[Diagnostic]:
@@ -98,9 +135,32 @@ def prefix_warnings(texts: PassthroughTexts, robot: Robot) -> Iterator[Diagnosti
                 to_final = f" to '{texts.prefix}{name}'" if texts.prefix else ""
                 remedy = f"change it{to_final} by {_override(paths.get(where, ()), is_name=whole == name)}"
             yield UNPREFIXED_NAME.at(where, name=name, kind=kind, remedy=remedy)
+    yield from _hardware_prefixes(texts)
     for topic, where, _ in texts.absolute_topics:
         yield ABSOLUTE_TOPIC.at(where, topic=topic)
     yield from _topics_and_frames(texts, robot)
+
+
+def _hardware_prefixes(texts: PassthroughTexts) -> Iterator[Diagnostic]:
+    """Yield a warning for each prefix that hardware reads and its names no longer begin with."""
+    for one in texts.hardware_prefixes:
+        bare = one.text.strip(_LIST_MARKS)
+        remedy = f"write '$(prefix){bare}'"
+        if texts.prefix and one.text == texts.prefix:
+            if not one.where.file.is_xml:
+                # It is `$(prefix)`, and names of the file begin alike.
+                continue
+            remedy = "its names have it already: use this file with 'prefix: \"\"'"
+        elif one.where.file.is_xml:
+            # In quotes, the middle is where an empty prefix is.
+            at = one.text.find(bare) if bare else len(one.text) // 2
+            to_final = f" to '{one.text[:at]}{texts.prefix}{one.text[at:]}'" if texts.prefix else ""
+            path = ("ros2_control", one.control, "parameters", one.key)
+            remedy = f"change it{to_final} by {_override(path, is_name=True)}"
+        value = f"'{bare}'" if bare else "empty"
+        yield UNPREFIXED_HARDWARE.at(
+            one.where, key=one.key, control=one.control, value=value, part=one.part, remedy=remedy
+        )
 
 
 def _named_in(text: str, robot: Robot) -> Sequence[str]:

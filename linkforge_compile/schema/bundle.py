@@ -33,28 +33,31 @@ class _EditorForm:
     def __init__(self, definitions: Mapping[str, Schema]) -> None:
         self._definitions = definitions
 
-    def of(self, schema: Schema, *, is_item: bool = False, is_patch: bool = False) -> Schema:
-        """Return a schema in which every map and list may be empty, except as an item of a list.
+    def of(self, schema: Schema, *, is_needed: bool = False, is_patch: bool = False) -> Schema:
+        """Return a schema in which everything may be empty, but no scalar or vector that is needed.
 
-        `null` is offered as a completion in a patch only, where it deletes.
+        Needed are items of lists and the fields that the language requires. `null` is offered as a completion in a
+        patch only, where it deletes.
         """
-        whole = {key: self._parts(key, part, is_patch) for key, part in schema.items()}
+        if is_needed and reference(schema) is not None and not self._is_section(self._target(schema)):
+            schema = self._target(schema)  # in its own definition it may be empty
+        whole = {key: self._parts(key, part, is_needed, is_patch) for key, part in schema.items()}
         listed = _kinds(schema)
-        is_section = "object" in listed or ("array" in listed and is_list(schema))
-        if is_section and not is_item and "null" not in listed and schema.get("title") != LONG_FORM:
+        is_whole = listed == [None] or "null" in listed or "enum" in schema or schema.get("title") == LONG_FORM
+        if not is_whole and (self._is_section(schema) or not is_needed):
             whole["type"] = [*listed, "null"]
         if isinstance(entry := whole.get("additionalProperties"), dict) and (snippets := _snippets_of_entries(schema)):
             whole["additionalProperties"] = _with_snippets(snippets, entry)
         return _with_silent_kinds(whole, ("boolean",) if is_patch else ("boolean", "null"))
 
-    def _parts(self, key: str, part: Json, is_patch: bool) -> Json:
+    def _parts(self, key: str, part: Json, is_needed: bool, is_patch: bool) -> Json:
         match key, part:
             case "properties" | "patternProperties", dict():
                 return {name: self._property(mapping(inner), is_patch) for name, inner in part.items()}
             case "anyOf", list():
-                return [self.of(mapping(branch), is_patch=is_patch) for branch in part]
+                return [self.of(mapping(branch), is_needed=is_needed, is_patch=is_patch) for branch in part]
             case "items", dict():
-                return self.of(self._flat_item(part), is_item=True, is_patch=is_patch)
+                return self.of(self._flat_item(part), is_needed=True, is_patch=is_patch)
             case "additionalProperties", dict():
                 return self.of(part, is_patch=is_patch)
         return part
@@ -64,12 +67,25 @@ class _EditorForm:
 
         The server looks for a snippet at the property itself, and only if that has no keys of its own.
         """
-        whole = self.of(schema, is_patch=is_patch)
         target = self._target(schema)
+        is_required = str(target.get("description", "")).endswith("Required.")
+        whole = self.of(schema, is_needed=is_required, is_patch=is_patch)
+        if "enum" in schema and not is_required and not is_patch:
+            whole = {**_descriptions(schema), "anyOf": [whole, _EMPTY]}
+        if _kinds(target)[0] == "boolean":
+            # The server offers both for the type, but not where that is under `else`.
+            examples = target.get("examples")
+            listed = examples if isinstance(examples, list) else []
+            whole["examples"] = [*listed, *(flag for flag in (True, False) if flag not in listed)]
         if reference(schema) is None or not {"properties", "defaultSnippets"} <= target.keys():
             return whole
-        descriptions = {key: part for key, part in target.items() if key in ("description", "markdownDescription")}
-        return _with_snippets(target["defaultSnippets"], {**descriptions, **whole})
+        return _with_snippets(target["defaultSnippets"], {**_descriptions(target), **whole})
+
+    @staticmethod
+    def _is_section(schema: Schema) -> bool:
+        """Whether a schema describes a map or a list of any length, which may be empty anywhere."""
+        listed = _kinds(schema)
+        return "object" in listed or ("array" in listed and is_list(schema))
 
     def _flat_item(self, schema: Schema) -> Schema:
         """Return the schema of an item that is a scalar or the long form without a union.
@@ -96,6 +112,14 @@ class _EditorForm:
         name = reference(schema)
         own = {key: part for key, part in schema.items() if key != "$ref"}
         return own if name is None else {**self._target(self._definitions[name]), **own}
+
+
+_EMPTY: Schema = {"if": {"type": ["null"]}, "else": False}
+"""Accepts null without offering it as a completion."""
+
+
+def _descriptions(schema: Schema) -> Schema:
+    return {key: part for key, part in schema.items() if key in ("description", "markdownDescription")}
 
 
 def _kinds(schema: Schema) -> list[Json]:
@@ -129,11 +153,12 @@ def _with_silent_kinds(schema: Schema, silent: tuple[str, ...]) -> Schema:
     which the server knows to insert a key with its colon.
     """
     listed = _kinds(schema)
-    hidden: list[Json] = [kind for kind in listed if kind in silent]
+    # A kind that comes first is what is meant to be written: true or false.
+    hidden: list[Json] = [kind for kind in listed if kind in silent and kind != listed[0]]
     is_bare_map = "object" in listed and not {"properties", "defaultSnippets"} & schema.keys()
-    if not hidden or len(listed) == 1 or listed[0] == "boolean" or is_bare_map:
+    if not hidden or is_bare_map:
         return schema
-    shown: list[Json] = [kind for kind in listed if kind not in silent]
+    shown: list[Json] = [kind for kind in listed if kind not in hidden]
     message = schema.get("patternErrorMessage", f"expected {schema['title']}")
     kept = {key: part for key, part in schema.items() if key != "type"}
     return {**kept, "if": {"type": hidden}, "else": {"type": shown, "errorMessage": message}}

@@ -46,8 +46,8 @@ from linkforge_compile.syntax.nodes import (
     YamlMap,
     YamlNode,
     YamlScalar,
-    fault_of,
     is_null,
+    to_fault,
     xacro_facts,
 )
 
@@ -140,7 +140,7 @@ def _prune(tree: YamlMap, findings: Iterable[Finding]) -> YamlMap:
 
     def prune(node: YamlNode, path: Path) -> YamlNode:
         if path in faulty:
-            return fault_of(node)
+            return to_fault(node)
         if path not in touched:
             return node
         if isinstance(node, YamlList):

@@ -35,7 +35,7 @@ class _DocumentTypeError(Exception):
     """Stops the parser at a document type, whose entities could expand."""
 
 
-def fault_of(text: str, around: str = "", *, is_whole: bool = True) -> MalformedXmlError | None:
+def find_xml_error(text: str, around: str = "", *, is_whole: bool = True) -> MalformedXmlError | None:
     """Return what is wrong with a text inside the tags `around`; None if nothing is, or after a document type.
 
     With `is_whole` False the text may end anywhere.

@@ -36,6 +36,20 @@ class Kind(Enum):
     """An override sets the key `name` of it, or of an object around it."""
     INCLUDE = auto()
     USE = auto()
+    COMMAND_LINE = auto()
+    """The command line, of which `name` is the argument, sets a name of expressions."""
+    PYTHON = auto()
+    """Python or another program sets it."""
+    WITH = auto()
+    """The `with` of a module sets it."""
+    VARIANT = auto()
+    """The variant `name` sets it."""
+    PARAMETER_DEFAULT = auto()
+    VARIABLE = auto()
+    REPETITION = auto()
+    """It is a name of a `for`."""
+    DATA = auto()
+    """The file `name` of `data` holds its value."""
 
 
 class Words(NamedTuple):
@@ -63,6 +77,14 @@ WORDS = {
     Kind.OVERRIDE: Words("'{name}' is changed by this override", "'{name}' is overridden", "overridden"),
     Kind.INCLUDE: Words("included here", "included", "included"),
     Kind.USE: Words("used here", "used", "used"),
+    Kind.COMMAND_LINE: Words(sentence="from the command line: {name}"),
+    Kind.PYTHON: Words(sentence="Python"),
+    Kind.WITH: Words(sentence="'with'"),
+    Kind.VARIANT: Words(sentence="variant '{name}'"),
+    Kind.PARAMETER_DEFAULT: Words(sentence="the default"),
+    Kind.VARIABLE: Words(sentence="the variable"),
+    Kind.REPETITION: Words(sentence="one of 'for'"),
+    Kind.DATA: Words(sentence="the content of {name}, named"),
 }
 
 
@@ -171,14 +193,14 @@ def aliases_of(source: SourceRef, *path: str | int) -> tuple[Link, ...]:
 
 
 def aliases_on(steps: Iterable[Step]) -> Iterator[Span]:
-    """Yield the aliases and `<<` on the way to a node: an anchor stands above the place that uses it.
+    """Yield the aliases and `<<` on the way to a node: an anchor is above the place that uses it.
 
     A URDF has none, and its attributes and elements in any order.
     """
     place: Span | None = None
     for key, value in steps:
         if key == value:
-            continue  # nobody wrote this key: it has the place of what was put under it
+            continue  # the key is generated: it has the place of what was put under it
         for inner in (key, value):
             if inner and place and inner.file is place.file and inner.start < place.start and not inner.file.is_xml:
                 yield place

@@ -13,7 +13,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.source.malformed_xml import MalformedXmlError, fault_of
+from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
 from linkforge_compile.source.span import SourceFile, Span, span_of
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ class XmlDocument:
 _TOO_LONG = "a text or a value in it has more than 10 MB, or a name more than 50,000 characters"
 
 
-def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
+def parse_xml(file: SourceFile, walked: Places | None = None) -> XmlDocument:
     """Parse a file; `walked` are the places of its text if they are known already.
 
     Raises:
@@ -138,9 +138,9 @@ def document_of(file: SourceFile, walked: Places | None = None) -> XmlDocument:
         # For faults that only lxml finds, the line is enough.
         at = sum(len(line) + 1 for line in text.split("\n")[: max(error.position[0] - 1, 0)])
         reason = _TOO_LONG if "too long" in error.msg else f"it cannot be read: {error.msg.partition(',')[0]}"
-        raise fault_of(text) or MalformedXmlError(reason, at) from None
+        raise find_xml_error(text) or MalformedXmlError(reason, at) from None
     # lxml accepts names of the fifth edition of XML 1.0; expat, and with it xacro, those of the fourth.
-    if places.has_foreign_names and (fault := fault_of(text)):
+    if places.has_foreign_names and (fault := find_xml_error(text)):
         raise fault
     if root.getroottree().docinfo.internalDTD is not None:
         raise MalformedXmlError("it has a document type", 0)

@@ -184,7 +184,7 @@ Tags: TypeAlias = Mapping[str, Callable[[YamlScalar], YamlNode]]
 """Functions by tag that make a node of a scalar with that tag and report its errors."""
 
 
-def fault_of(node: YamlNode) -> YamlFault:
+def to_fault(node: YamlNode) -> YamlFault:
     """Return the YamlFault that replaces a faulty node."""
     return node if isinstance(node, YamlFault) else YamlFault(node.span, frozenset(_keys_in(node)))
 

@@ -8,7 +8,7 @@ def wheel(name: str, parent: str, child: str) -> Joint:
     return Joint(name, JointType.CONTINUOUS, parent, child, axis=X)
 
 
-def test_a_moving_frame_with_a_body_below_is_lost_in_gazebo():
+def test_a_moving_frame_with_a_body_below_is_dropped_by_gazebo():
     subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
     subject.add_link(Link("head"))
     assert messages_of(subject) == [
@@ -36,7 +36,7 @@ def test_mass_is_not_missed_while_parts_of_the_robot_are_missing():
     assert messages_of(subject, UnresolvedNames(frozenset({"counterweight"}))) == []
 
 
-def test_a_chain_of_moving_frames_is_reported_at_its_first_with_the_joints_that_are_lost():
+def test_a_chain_of_moving_frames_is_reported_once_with_the_dropped_joints():
     subject = robot(
         "base hand tip", wheel("z", "base", "roll"), wheel("y", "roll", "pitch"), wheel("x", "pitch", "hand")
     )
@@ -64,7 +64,7 @@ def test_the_world_needs_no_mass():
     assert messages_of(subject) == []
 
 
-def test_a_frame_on_a_kept_fixed_joint_is_lost_as_if_it_moved():
+def test_a_frame_on_a_preserved_fixed_joint_is_dropped_as_if_movable():
     subject = robot("base hand", fixed("mount", "base", "plate"), wheel("turn", "plate", "hand"))
     subject.add_link(Link("plate"))
     assert messages_of(subject) == []
@@ -102,7 +102,7 @@ def test_a_plugin_may_speak_of_links_that_stay_and_of_frames():
     ]
 
 
-def test_10000_links_that_are_merged_or_lost_take_no_recursion():
+def test_10000_merged_or_dropped_links_need_no_recursion():
     links = [Link("l0"), *(Link(f"l{number}") for number in range(1, 9_999)), body("l9999")]
     glued = [fixed(f"j{number}", f"l{number}", f"l{number + 1}") for number in range(9_999)]
     assert messages_of(Robot("r", links=links, joints=glued)) == []

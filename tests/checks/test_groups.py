@@ -93,7 +93,7 @@ def test_a_way_up_goes_round_a_circle_once():
     assert links.between(Chain("b", "c")) == links.of("c")
 
 
-def test_a_group_that_hangs_on_a_circle_is_judged_as_others_are():
+def test_a_group_that_refers_to_a_cycle_is_checked_as_others_are():
     circle = (fixed("j", "a", "b"), fixed("k", "b", "a"), fixed("l", "b", "c"))
     effector = EndEffector("e", parent_link="d", group="arm")
     semantic = SemanticRobotDescription(groups=(chain("arm", "b", "c"),), end_effectors=(effector,))

@@ -68,7 +68,7 @@ READ = Ros2ControlJoint("right", (), ("position",))
 DRIVEN = Ros2ControlJoint("right", ("position",), extra_attributes=[("mimic", "false")])
 
 
-def test_a_joint_that_mimics_is_read_beside_its_leader():
+def test_a_mimic_joint_is_read_in_the_system_of_its_leader():
     assert messages_of(gripper(LEFT, READ)) == []
     assert messages_of(gripper(READ)) == [
         "LF6105 ros2_control 'hw': joint 'right' mimics 'left', which ros2_control misses in this system; "
@@ -76,7 +76,7 @@ def test_a_joint_that_mimics_is_read_beside_its_leader():
     ]
 
 
-def test_a_joint_that_mimics_is_not_commanded_unless_it_is_said():
+def test_a_mimic_joint_is_not_commanded_by_default():
     assert messages_of(gripper(LEFT, DRIVEN)) == []
     assert messages_of(gripper(LEFT, Ros2ControlJoint("right", ("position",)))) == [
         "LF6104 ros2_control 'hw': joint 'right' mimics 'left', so ros2_control refuses to command it; "

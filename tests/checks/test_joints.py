@@ -75,7 +75,7 @@ def test_limits_that_do_not_fit_a_joint_are_reported(joint_type: JointType, limi
         (JointSafetyController(None, None, 100.0, 1.0), ["LF5507"]),
     ],
 )
-def test_soft_limits_are_judged_by_the_limits(safety: JointSafetyController, codes: list[str]):
+def test_soft_limits_are_checked_against_the_limits(safety: JointSafetyController, codes: list[str]):
     limits = JointLimits(-1.0, 1.0)
     joint = Joint("j", JointType.REVOLUTE, "base", "a", axis=X, limits=limits, safety_controller=safety)
     assert [one[:6] for one in messages_of(robot("base a", joint))] == codes

@@ -92,7 +92,7 @@ def test_meshes_are_not_measured():
     assert messages_of(of(Inertial(1e5, Transform(Vector3(0, 0, 50)), tiny), Mesh("package://nowhere/a.stl"))) == []
 
 
-def test_small_parts_of_the_whole_are_not_judged():
+def test_small_parts_of_the_whole_are_not_checked():
     marker = Link(
         "imu", Inertial(0.001, inertia=InertiaTensor(1e-3, 1e-3, 1e-3)), collisions=[Collision(Sphere(0.0005))]
     )
@@ -164,7 +164,7 @@ FITTING = InertiaTensor(0.002, 0.005, 0.005)
         ),
     ],
 )
-def test_a_link_of_meshes_is_judged_by_their_boxes(
+def test_a_link_of_meshes_is_checked_by_their_boxes(
     tmp_path: Path, inertial: Inertial, scale: float, messages: list[str]
 ):
     assert [one for one in messages_of(of_meshes(tmp_path, inertial, scale)) if "LF6020" not in one] == messages

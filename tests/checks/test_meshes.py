@@ -84,9 +84,7 @@ def test_all_files_of_a_folder_that_is_not_there_are_one_fault(meshes: Path):
 
 
 @pytest.mark.parametrize("is_there", [True, False])
-def test_behind_a_hundred_missing_files_those_of_a_folder_are_reported_together_and_none_is_lost(
-    meshes: Path, is_there: bool
-):
+def test_after_a_hundred_missing_files_those_of_a_folder_are_reported_together(meshes: Path, is_there: bool):
     folder = "meshes" if is_there else "mesh"
     (meshes / "b100.STL").touch()
     subject = of(meshes, *(f"package://arm/{folder}/b{number}.stl" for number in range(131)))
@@ -103,9 +101,7 @@ def test_behind_a_hundred_missing_files_those_of_a_folder_are_reported_together_
     assert together.message == f"there is no mesh 'package://arm/{folder}/{first}.stl'; did you mean '{offered}'?"
 
 
-def test_behind_many_packages_that_are_nowhere_those_that_are_declared_are_looked_for_and_the_rest_noted(
-    meshes: Path, monkeypatch: pytest.MonkeyPatch
-):
+def test_after_many_missing_packages_only_declared_ones_are_searched(meshes: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(mesh_files, "MAX_MISSING_PACKAGES", 2)
     found = [f"package://here{number}/a.stl" for number in range(3)]
     for number in range(3):
@@ -155,7 +151,7 @@ def test_a_few_triangles_from_all_over_the_file_tell_its_size(meshes: Path):
 @pytest.mark.parametrize(
     "content", [b"solid a", b"\0" * 200, strip(3, 1.0)[:-1], stl((math.nan,) * 9), stl((3e38, -3e38) + (0,) * 7)]
 )
-def test_a_file_that_is_no_sound_binary_stl_is_not_judged(meshes: Path, content: bytes):
+def test_an_invalid_binary_stl_is_not_checked(meshes: Path, content: bytes):
     (meshes / "a.stl").write_bytes(content)
     assert messages_of(of(meshes, "package://arm/meshes/a.stl"))[1:] == []
 

@@ -24,13 +24,13 @@ def codes_of_checks() -> Iterator[str]:
                 yield from (getattr(module, name.name).id for name in node.names)
 
 
-def test_every_code_of_a_check_stands_on_the_page():
+def test_every_code_of_a_check_is_on_the_page():
     reported = {*codes_of_checks()}
     assert len(reported) > 80
     assert reported <= {code for code, _ in LINK.findall(PAGE)}
 
 
-def test_each_code_stands_in_the_column_of_its_severity():
+def test_each_code_is_in_the_column_of_its_severity():
     for _, *columns in ROWS:
         for severity, cell in zip(("error", "warning", "note"), columns, strict=True):
             for code, page in LINK.findall(cell):

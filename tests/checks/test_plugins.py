@@ -35,7 +35,7 @@ def test_a_joint_that_a_plugin_will_not_find_is_noted(tag: str):
         {"left_joint": ""},
     ],
 )
-def test_what_may_be_anything_else_is_not_judged(parameters: dict[str, object]):
+def test_values_without_a_known_meaning_are_not_checked(parameters: dict[str, object]):
     assert messages_of(arm(plugin(**parameters))) == []
 
 

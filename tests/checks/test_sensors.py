@@ -26,7 +26,7 @@ def test_a_frame_that_no_link_has_is_reported():
 
 
 @pytest.mark.parametrize("topic", ["imu", "/imu", "~", "~/imu", "a/b_2/C", "/{node}/imu", "x{robot}_imu", "a__b", "_2"])
-def test_topics_that_ros_takes(topic: str):
+def test_topics_that_ros_accepts(topic: str):
     assert messages_of(arm(imu("tilt", topic=topic))) == []
 
 

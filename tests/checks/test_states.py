@@ -48,12 +48,12 @@ def test_a_state_of_a_joint_that_is_not_in_its_group_is_reported():
         chain("g", "right_hand", "left_hand"),
     ],
 )
-def test_a_joint_is_in_a_group_however_that_is_said(group: PlanningGroup):
+def test_a_joint_is_in_a_group_in_every_form(group: PlanningGroup):
     messages = messages_of(two_arms(groups=(LEFT, group), group_states=(GroupState("s", "g", {"left_shoulder": 0}),)))
     assert not [message for message in messages if message.startswith("LF5604")]
 
 
-def test_what_a_group_holds_is_not_judged_while_one_of_its_names_is_unknown():
+def test_a_group_with_an_unknown_name_is_not_checked_further():
     group = PlanningGroup("g", joints=("left_shoulder", "lost"))
     messages = messages_of(two_arms(groups=(group,), group_states=(GroupState("s", "g", {"right_shoulder": 0}),)))
     assert messages == ["LF4103 planning group 'g': no joint named 'lost'"]

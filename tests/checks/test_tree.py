@@ -78,7 +78,7 @@ def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
     assert f" from '{root}' to " in diagnostic.message
 
 
-def test_several_roots_are_reported_once_and_a_link_that_stands_alone_is_none():
+def test_several_roots_are_reported_once_with_a_note_for_each():
     subject = robot("camera base arm lidar", fixed("shoulder", "base", "arm"))
     (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
@@ -113,7 +113,7 @@ def test_a_link_that_a_copied_child_left_alone_is_no_second_fault():
     assert [one[:6] for one in messages_of(subject)] == ["LF5402"]
 
 
-def test_the_tree_is_not_judged_while_parts_of_it_are_missing():
+def test_the_tree_is_not_checked_while_parts_of_it_are_missing():
     assert messages_of(robot("base camera"), UnresolvedNames(frozenset({"mount"}))) == []
     assert messages_of(Robot("r"), UnresolvedNames(prefixes=("",))) == []
 

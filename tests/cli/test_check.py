@@ -25,7 +25,7 @@ joints:
 """
 
 
-def test_every_error_is_told_at_once(tmp_path: Path):
+def test_every_error_is_reported_in_one_run(tmp_path: Path):
     (tmp_path / "faulty.robot.yaml").write_text(FAULTY)
     run = linkforge("check", "faulty.robot.yaml", cwd=tmp_path)
     assert run.returncode == 1
@@ -56,13 +56,13 @@ def test_an_unset_parameter_is_an_error_only_when_compiling(tmp_path: Path):
     assert linkforge("compile", "open.robot.yaml", cwd=tmp_path).returncode == 1
 
 
-def test_a_missing_file_is_told(tmp_path: Path):
+def test_a_missing_file_is_reported(tmp_path: Path):
     run = linkforge("check", "nowhere.robot.yaml", cwd=tmp_path)
     assert run.returncode == 1
     assert "nowhere.robot.yaml" in run.stderr
 
 
-def test_a_fault_of_a_shared_module_is_told_once(tmp_path: Path):
+def test_a_fault_of_a_shared_module_is_reported_once(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text(FAULTY)
     for name in ("a", "b"):
         user = f"linkforge: 1\nname: {name}\nlinks: {{base: }}\nmodules: {{m: {{use: arm.robot.yaml, parent: base}}}}\n"
@@ -73,12 +73,12 @@ def test_a_fault_of_a_shared_module_is_told_once(tmp_path: Path):
 
 
 def test_of_two_variants_none_is_forgotten_in_silence(tmp_path: Path):
-    run = linkforge("check", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
+    run = linkforge("deps", "arm.robot.yaml", "--variant", "sim", "--variant", "real", cwd=tmp_path)
     assert run.returncode == 2
     assert "argument --variant: may be given once, found 'sim' and 'real'" in run.stderr
 
 
-def test_a_folder_stands_for_every_spec_in_it_and_below(tmp_path: Path):
+def test_a_folder_means_every_spec_in_it_and_below(tmp_path: Path):
     (tmp_path / "robots" / "parts").mkdir(parents=True)
     (tmp_path / "robots" / "good.robot.yaml").write_text(PENDULUM)
     (tmp_path / "robots" / "parts" / "faulty.robot.yaml").write_text(FAULTY)
@@ -92,7 +92,7 @@ def test_a_folder_stands_for_every_spec_in_it_and_below(tmp_path: Path):
         assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"
 
 
-def test_a_part_without_a_name_is_judged_with_the_spec_that_includes_it(tmp_path: Path):
+def test_a_file_without_a_name_is_checked_with_the_spec_that_includes_it(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\ninclude: [links.robot.yaml]\n")
     part = tmp_path / "links.robot.yaml"
     part.write_text("linkforge: 1\nlinks: {base: }\n")
@@ -119,7 +119,7 @@ def test_a_folder_without_specs_is_no_clean_one(tmp_path: Path):
     assert "there is no spec, NAME.robot.yaml, in the folder 'empty' or below it [LF3067]" in run.stderr
 
 
-def test_a_link_out_of_the_repository_that_is_found_by_searching_is_told_and_not_opened(tmp_path: Path):
+def test_a_link_out_of_the_repository_found_by_searching_is_reported_and_not_opened(tmp_path: Path):
     """Whoever made the repository has named the file, and not who checks it: nothing of it is shown."""
     (tmp_path / "far").mkdir()
     (tmp_path / "far" / "secret.yaml").write_text("password: hunter2\n")
@@ -170,14 +170,18 @@ def test_lines_that_name_a_file_spell_it_out(tmp_path: Path):
     expanded = linkforge("expand", HOSTILE, cwd=tmp_path).stdout
     assert SPELT in expanded
     assert "\n::error" not in expanded
-    for words in (("diff", HOSTILE, HOSTILE), ("compile", HOSTILE, HOSTILE), ("where", f"build/{urdf.name}", "base")):
+    for words in (
+        ("diff", HOSTILE, HOSTILE),
+        ("compile", HOSTILE, HOSTILE, "-o", "b/"),
+        ("where", f"build/{urdf.name}", "base"),
+    ):
         run = linkforge(*words, cwd=tmp_path)
         assert r"\n::error" in run.stdout + run.stderr
         assert (run.stdout + run.stderr).replace("\n", "").isprintable()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
-def test_a_name_that_is_not_utf8_is_shown_and_the_rest_told(tmp_path: Path):
+def test_a_name_that_is_not_utf8_is_shown_and_the_rest_reported(tmp_path: Path):
     (tmp_path / os.fsdecode(b"b\xffad.robot.yaml")).write_bytes(b"a\xff")
     (tmp_path / os.fsdecode(b"c\xff.robot.yaml")).write_text(PENDULUM)
     (tmp_path / "z.robot.yaml").write_text("wrong\n")
@@ -202,7 +206,7 @@ def test_a_pipe_that_is_found_by_searching_is_no_spec(tmp_path: Path):
     assert linkforge("check", cwd=tmp_path).stderr.startswith("checked 1 spec:")
 
 
-def test_a_folder_that_cannot_be_read_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_an_unreadable_folder_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Its specs are not checked, so the check fails; and the schema of the workspace may lack their names."""
     (tmp_path / "closed").mkdir()
     (tmp_path / "good.robot.yaml").write_text(PENDULUM)

@@ -77,7 +77,7 @@ def test_no_srdf_is_written_without_a_semantic_part(pendulum: Path):
     assert [path.name for path in (pendulum / "build").iterdir()] == ["swing.urdf"]
 
 
-def test_asking_for_srdf_without_a_semantic_part_is_told(pendulum: Path):
+def test_a_request_for_srdf_without_a_semantic_part_is_reported(pendulum: Path):
     run = linkforge("compile", "swing.robot.yaml", "--format", "srdf", cwd=pendulum)
     assert (run.returncode, run.stdout) == (1, "")
     assert "swing.robot.yaml:2:7: error: robot 'pendulum' has no 'semantic' part" in run.stderr
@@ -85,7 +85,7 @@ def test_asking_for_srdf_without_a_semantic_part_is_told(pendulum: Path):
     assert [one["code"] for one in json.loads(run.stderr)["diagnostics"]] == ["LF7085"]
 
 
-def test_asking_for_the_srdf_of_a_urdf_is_told_in_its_words(tmp_path: Path):
+def test_a_request_for_the_srdf_of_a_urdf_is_reported_in_terms_of_urdf(tmp_path: Path):
     (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
     run = linkforge("compile", "arm.urdf", "--format", "srdf", cwd=tmp_path)
     assert (run.returncode, run.stdout) == (1, "")
@@ -93,7 +93,7 @@ def test_asking_for_the_srdf_of_a_urdf_is_told_in_its_words(tmp_path: Path):
 
 
 @pytest.mark.parametrize("words", [("-o", "out.srdf"), ("-o", "out.xml", "--format", "srdf")])
-def test_one_file_takes_its_format_from_its_name_or_the_option(pendulum: Path, words: tuple[str, ...]):
+def test_the_format_of_one_file_follows_its_name_or_the_option(pendulum: Path, words: tuple[str, ...]):
     (pendulum / "swing.robot.yaml").write_text(PENDULUM + SEMANTIC)
     assert linkforge("compile", "swing.robot.yaml", *words, cwd=pendulum).returncode == 0
     assert "<group " in (pendulum / words[1]).read_text()
@@ -105,7 +105,7 @@ def test_a_parameter_is_set_in_any_of_the_spellings(pendulum: Path, words: tuple
     assert box_height(run.stdout) == "0.7"
 
 
-def test_a_package_is_where_the_option_says(pendulum: Path):
+def test_the_option_gives_the_folder_of_a_package(pendulum: Path):
     (pendulum / "vendor" / "robots").mkdir(parents=True)
     (pendulum / "vendor" / "robots" / "arm.robot.yaml").write_text(PENDULUM)
     user = "linkforge: 1\nname: cell\nmodules: {arm: {use: package://vendor_arm/robots/arm.robot.yaml}}\n"
@@ -126,7 +126,7 @@ def test_sensors_are_written_as_the_simulator_reads_them(pendulum: Path):
         assert ("LF7104" in linkforge("check", spec.name, *words, cwd=pendulum).stderr) is bool(told)
 
 
-def test_meshes_beside_the_spec_are_told_where_the_urdf_goes_elsewhere(pendulum: Path):
+def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulum: Path):
     """LF7006."""
     (pendulum / "meshes").mkdir()
     (pendulum / "meshes" / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
@@ -183,7 +183,7 @@ def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
-@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1"])
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: Path):
     plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
     piped = program("compile", "swing.robot.yaml", "-o", name, cwd=pendulum)
@@ -196,7 +196,20 @@ def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: P
     assert (pendulum / "out").read_text() == f"before\n{plain}"
 
 
-def test_standard_output_takes_one_format(pendulum: Path):
+@pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
+def test_a_pipe_that_a_shell_opened_is_written(pendulum: Path):
+    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    read, write = os.pipe()
+    with os.fdopen(read) as pipe:
+        command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", f"/dev/fd/{write}"]
+        subprocess.run(command, cwd=pendulum, pass_fds=[write], check=True, timeout=60)
+        os.close(write)
+        assert pipe.read() == plain
+    piped = program("compile", "swing.robot.yaml", "-q", "-o", "/dev/stderr", cwd=pendulum)
+    assert (piped.returncode, piped.stderr) == (0, plain)
+
+
+def test_standard_output_accepts_one_format(pendulum: Path):
     run = linkforge("compile", "swing.robot.yaml", "-o", "-", "-o", "arm.srdf", cwd=pendulum)
     assert (run.returncode, run.stdout) == (2, "")
     assert "-o - is standard output, which takes one format" in run.stderr
@@ -234,7 +247,7 @@ def test_a_spec_comes_from_standard_input(pendulum: Path):
     assert box_height(run.stdout) == "0.5"
 
 
-def test_errors_are_told_with_line_and_caret_and_leave_the_old_output(pendulum: Path):
+def test_errors_are_reported_with_line_and_caret_and_leave_the_old_output(pendulum: Path):
     (pendulum / "swing.urdf").write_text("old")
     (pendulum / "swing.robot.yaml").write_text(PENDULUM.replace("child: rod", "child: rodd"))
     run = program("compile", "swing.robot.yaml", "-o", "swing.urdf", cwd=pendulum)
@@ -275,7 +288,7 @@ def test_output_through_a_link_keeps_the_link(pendulum: Path):
     assert "pendulum" in (pendulum / "real.urdf").read_text()
 
 
-def test_nothing_is_left_beside_the_output(pendulum: Path):
+def test_no_other_file_is_left_next_to_the_output(pendulum: Path):
     linkforge("compile", "swing.robot.yaml", "-o", "out/swing.urdf", cwd=pendulum)
     assert [path.name for path in (pendulum / "out").iterdir()] == ["swing.urdf"]
 
@@ -356,7 +369,7 @@ class _Taking(BytesIO):
         return super().write(chunk[:7])
 
 
-def test_standard_output_gets_all_or_it_is_told(monkeypatch: pytest.MonkeyPatch):
+def test_standard_output_gets_everything_or_an_error_is_reported(monkeypatch: pytest.MonkeyPatch):
     text = "# 3 µm\n" * 9
     whole, short = _Taking(len(text.encode())), _Taking(40)
     monkeypatch.setattr(sys, "stdout", SimpleNamespace(buffer=whole, flush=whole.flush))
@@ -401,7 +414,7 @@ def test_an_ending_that_is_no_output_is_refused_and_nothing_is_overwritten(pendu
     assert (pendulum / "swing.robot.yaml").read_text() == PENDULUM
 
 
-def test_standard_input_that_is_no_text_is_told(pendulum: Path):
+def test_standard_input_that_is_not_text_is_reported(pendulum: Path):
     command = f"printf '\\377\\376' | {sys.executable} -m linkforge_compile compile -"
     run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
     assert run.returncode == 2
@@ -420,7 +433,10 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
     [
         ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
-        (("compile", "a.robot.yaml", "b.robot.yaml"), "takes one spec, found 2"),
+        (
+            ("compile", "a.robot.yaml", "b.robot.yaml"),
+            "-o takes one folder for the outputs of several specs, found none",
+        ),
         (("compile", ""), "takes one spec, found '': is a variable of the shell empty?"),
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
@@ -443,14 +459,14 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),
     ],
 )
-def test_wrong_usage_is_told(pendulum: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(pendulum: Path, words: tuple[str, ...], said: str):
     run = linkforge(*words, cwd=pendulum)
     assert run.returncode == 2
     assert said in run.stderr
 
 
 @pytest.mark.parametrize("factor", ["abc", "-1", "0", "1e300"])
-def test_a_factor_of_the_limits_that_is_none_is_told(pendulum: Path, factor: str, monkeypatch: pytest.MonkeyPatch):
+def test_an_invalid_factor_of_the_limits_is_reported(pendulum: Path, factor: str, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("LINKFORGE_LIMITS", factor)
     run = linkforge("compile", "swing.robot.yaml", cwd=pendulum)
     assert run.returncode == 2

@@ -88,7 +88,7 @@ def rule(capfd: pytest.CaptureFixture[str], *words: str) -> str:
     return capfd.readouterr().out.partition(":")[0]
 
 
-def test_a_rule_is_for_the_outputs_that_are_said(cell: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_rule_names_the_given_outputs(cell: Path, capfd: pytest.CaptureFixture[str]):
     assert rule(capfd, "cell.robot.yaml") == "cell.urdf"
     assert rule(capfd, "cell.robot.yaml", "-o", "b/a.urdf", "-o", "b/a.srdf") == "b/a.urdf b/a.srdf"
     assert rule(capfd, "cell.robot.yaml", "-o", "b/") == "b/cell.urdf b/cell.srdf"
@@ -156,7 +156,7 @@ def test_make_reads_names_with_what_means_something_to_it(cell: Path, name: str)
     assert "%" in name or makefile.compiles()
 
 
-def test_a_name_that_no_makefile_can_hold_is_told(cell: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_name_that_no_makefile_can_hold_is_reported(cell: Path, capfd: pytest.CaptureFixture[str]):
     (cell / "a;b.yaml").write_text("width: 2\n")
     (cell / "cell.robot.yaml").write_text(ROBOT.replace("table.yaml", "a;b.yaml"))
     assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 2
@@ -164,7 +164,7 @@ def test_a_name_that_no_makefile_can_hold_is_told(cell: Path, capfd: pytest.Capt
 
 
 @pytest.mark.parametrize("mark", ["=", "%"])
-def test_an_output_whose_name_make_and_ninja_cannot_both_read_is_told(
+def test_an_output_name_that_make_or_ninja_cannot_read_is_reported(
     cell: Path, capfd: pytest.CaptureFixture[str], mark: str
 ):
     assert main(["compile", "cell.robot.yaml", "-o", f"reach{mark}2.urdf", "--depfile", "robot.d"]) == 2
@@ -183,7 +183,7 @@ def test_make_reads_outputs_with_what_means_something_to_it(cell: Path, name: st
     assert subprocess.run(question, cwd=cell, check=False, timeout=60).returncode == 1
 
 
-def test_a_build_that_asks_for_a_depfile_is_told_of_faults_only(cell: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_build_with_a_depfile_prints_faults_only(cell: Path, capfd: pytest.CaptureFixture[str]):
     assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 0
     assert "".join(capfd.readouterr()) == ""
 
@@ -273,5 +273,5 @@ def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
     "name", ["cell.robot.yaml", "cell.yaml", "cell.yml", "cell.urdf", "cell.urdf.xacro", "cell.xacro"]
 )
 def test_files_are_named_after_the_spec(name: str):
-    paths = targets_of(f"robots/{name}", ["out/"], "urdf").paths
+    paths = targets_of(f"robots/{name}", ["out/"], ["urdf"]).paths
     assert paths == {"urdf": Path("out/cell.urdf")}

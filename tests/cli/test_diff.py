@@ -52,7 +52,7 @@ def arms(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_what_differs_is_told_in_a_robots_terms(arms: Path):
+def test_differences_are_shown_in_terms_of_the_robot(arms: Path):
     run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", cwd=arms)
     assert (run.returncode, run.stdout, run.stderr) == (1, TEXT, "")
 
@@ -77,7 +77,7 @@ def test_a_spec_is_the_same_robot_as_what_it_compiles_to(tmp_path: Path):
     assert (run.returncode, run.stdout.count("update_rate: ")) == (1, 1)
 
 
-def test_a_spec_whose_urdf_does_not_read_back_is_said_to_be_compared_as_written(tmp_path: Path):
+def test_a_spec_whose_urdf_does_not_read_back_is_compared_as_written(tmp_path: Path):
     spec = "linkforge: 1\nname: r\nlinks: {a: }\nsensors: {imu: {type: imu, link: a}}\n"
     (tmp_path / "r.robot.yaml").write_text(spec)
     linkforge("compile", "r.robot.yaml", "-o", "r.urdf", cwd=tmp_path)
@@ -121,7 +121,7 @@ def test_of_two_variants_for_one_side_none_is_forgotten_in_silence(arms: Path):
     assert "argument --after-variant: may be given once, found 'a' and 'b'" in run.stderr
 
 
-def test_what_is_set_for_one_side_comes_before_the_rest_and_stands_in_the_heading(arms: Path):
+def test_the_values_of_one_side_come_first_and_are_in_the_heading(arms: Path):
     (arms / "old.robot.yaml").write_text(f"{OLD}variants: {{long: {{reach: 2}}}}\n")
     twice = ("diff", "old.robot.yaml", "old.robot.yaml")
     run = linkforge(*twice, "--variant", "long", "-p", "reach=1", "--after", "reach=0.75 m", cwd=arms)
@@ -142,7 +142,7 @@ def test_an_srdf_is_the_semantic_part_of_its_urdf(arms: Path):
     assert "  ~ groups/arm\n      + joints: elbow\n      - joints: flange\n" in run.stdout
 
 
-def test_a_xacro_takes_its_arguments(arms: Path):
+def test_a_xacro_gets_its_arguments(arms: Path):
     pytest.importorskip("xacro")
     (arms / "a.urdf.xacro").write_text(
         '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="link" default="b"/>'
@@ -153,7 +153,7 @@ def test_a_xacro_takes_its_arguments(arms: Path):
     assert "> c: was 'b'" in run.stdout
 
 
-def test_each_robot_takes_of_the_parameters_what_it_has(arms: Path):
+def test_each_robot_gets_the_parameters_that_it_declares(arms: Path):
     pytest.importorskip("xacro")
     (arms / "a.urdf.xacro").write_text(
         '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="link" default="b"/>'

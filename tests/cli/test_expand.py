@@ -73,7 +73,7 @@ def test_nothing_is_left_to_compute_in_it_and_nothing_to_warn_of(spec: Path):
     assert not re.search(r"(?<!\$)\$\(", text)
 
 
-def test_each_part_says_where_it_was_written_seen_from_the_spec(cart: Path):
+def test_each_part_names_its_source_relative_to_the_spec(cart: Path):
     run = linkforge("expand", "cart.robot.yaml", cwd=cart)
     assert (run.returncode, run.stderr) == (0, "")
     assert run.stdout == dedent("""\
@@ -113,7 +113,7 @@ def test_it_is_the_same_text_wherever_it_runs_and_tells_no_path_of_the_machine(c
     assert str(cart) not in there
 
 
-def test_a_file_takes_it_and_parameters_are_set(cart: Path):
+def test_the_output_goes_to_a_file_and_parameters_are_set(cart: Path):
     run = linkforge("expand", "parts/wheel.robot.yaml", "-o", "flat.robot.yaml", "radius:=5cm", cwd=cart)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "wrote flat.robot.yaml\n")
     assert "sphere: 0.05" in (cart / "flat.robot.yaml").read_text()
@@ -135,7 +135,7 @@ def test_standard_input_is_expanded_too(cart: Path):
     assert "# <stdin>:6\n  hub: {visual: {sphere: 0.1}}" in run.stdout
 
 
-def test_a_spec_with_errors_is_told_and_not_expanded(cart: Path):
+def test_a_spec_with_errors_is_reported_and_not_expanded(cart: Path):
     run = linkforge("expand", "-", cwd=cart, stdin=WHEEL.replace("child: hub", "child: wheels"))
     assert (run.returncode, run.stdout) == (1, "")
     assert "did you mean 'wheel'?" in run.stderr

@@ -33,7 +33,7 @@ def cell(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_a_value_is_told_with_its_place_its_expression_and_the_files_between(cell: Path):
+def test_a_value_is_shown_with_its_place_expression_and_files_between(cell: Path):
     run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/effort", cwd=cell)
     assert (run.returncode, run.stderr) == (0, "")
     assert run.stdout.splitlines() == [
@@ -49,7 +49,7 @@ def test_a_value_is_told_with_its_place_its_expression_and_the_files_between(cel
     ]
 
 
-def test_what_nobody_wrote_is_told_as_such(cell: Path):
+def test_an_unwritten_value_is_shown_as_such(cell: Path):
     run = linkforge("explain", "cell.robot.yaml", "joints/left_joint/type", cwd=cell)
     assert run.stdout.splitlines()[:3] == [
         "joints/left_joint/type: fixed",
@@ -84,20 +84,20 @@ def test_parameters_are_set_before(cell: Path):
         (("cell.robot.yaml", "joints/elbow"), "there is no 'elbow' in 'joints'; did you mean 'left_elbow'?"),
     ],
 )
-def test_wrong_usage_is_told(cell: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(cell: Path, words: tuple[str, ...], said: str):
     run = linkforge("explain", *words, cwd=cell)
     assert (run.returncode, run.stdout) == (2, "")
     assert said in run.stderr
 
 
-def test_a_spec_with_errors_is_told(cell: Path):
+def test_a_spec_with_errors_is_reported(cell: Path):
     (cell / "arm.robot.yaml").write_text(ARM.replace("axis: z", "axis: w"))
     run = linkforge("explain", "arm.robot.yaml", "name", cwd=cell)
     assert (run.returncode, run.stdout) == (1, "")
     assert "axis" in run.stderr
 
 
-def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
+def test_the_values_replaced_by_an_override_and_a_default_are_shown(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text(ARM + "defaults: {joint: {limits: {effort: 5, velocity: 9}}}\n")
     patch = "override: {joints: {elbow: {limits: {effort: 30 N*m}}}}"
     (tmp_path / "cell.robot.yaml").write_text(CELL.replace("parent: table", f"parent: table, {patch}"))
@@ -114,7 +114,7 @@ def test_what_an_override_and_a_default_gave_way_to_is_told(tmp_path: Path):
     assert "cell.robot.yaml:5:15" not in run.stdout
 
 
-def test_what_an_override_changed_inside_of_a_value_is_told(tmp_path: Path):
+def test_a_change_by_an_override_inside_of_a_value_is_shown(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text(ARM)
     patch = "override: {joints: {elbow: {limits: {effort: 30 N*m}}}}"
     cell = CELL.replace("parent: table", f"parent: table, {patch}")
@@ -157,7 +157,7 @@ def blocks(folder: Path, path: str) -> list[str]:
     return [line for line in run.stdout.splitlines() if "|" not in line]
 
 
-def test_a_computed_inertia_is_told_with_what_it_was_computed_from(tmp_path: Path):
+def test_a_computed_inertia_is_shown_with_its_sources(tmp_path: Path):
     assert blocks(tmp_path, "links/oak/inertial/mass") == [
         "links/oak/inertial/mass: 1400 kg",
         "computed from the density, spread evenly over the link's shapes",
@@ -201,7 +201,7 @@ def test_a_number_of_a_short_form_is_reached_without_the_key_that_was_left_out(t
     assert blocks(tmp_path, "links/elm/visual/box/0")[0] == "links/elm/visual/0/box/size/0: 1 m"
 
 
-def test_what_is_no_error_elsewhere_in_the_spec_is_not_told(cell: Path):
+def test_warnings_elsewhere_in_the_spec_are_not_shown(cell: Path):
     spec = ARM.replace("axis: z", "axis: z, origin: [200, 0, 0]")
     (cell / "arm.robot.yaml").write_text(spec)
     assert "LF5010" in linkforge("check", "arm.robot.yaml", cwd=cell).stderr
@@ -215,7 +215,7 @@ def test_a_code_is_explained_by_its_page_of_the_manual(tmp_path: Path):
     assert run.stdout == (manual_folder() / "LF1002.md").read_text("utf-8")
 
 
-def test_a_page_is_styled_where_colours_are_asked_for(tmp_path: Path):
+def test_a_page_is_styled_if_colors_are_requested(tmp_path: Path):
     run = linkforge("explain", "LF1002", cwd=tmp_path, FORCE_COLOR="1", NO_COLOR="")
     assert run.stdout.startswith("\033[1mLF1002: YAML is indented with spaces, found …\033[0m\n")
     assert "```" not in run.stdout
@@ -298,7 +298,7 @@ def computed(folder: Path, path: str, *options: str) -> list[str]:
     return lines[start:end]
 
 
-def test_each_name_is_told_with_what_set_it_and_what_that_beat(nested: Path):
+def test_each_name_is_shown_with_its_source_and_what_it_replaced(nested: Path):
     path = "links/left_hand_palm/visual/0/box/size/1"
     assert computed(nested, path, "-p", "arm_reach=0.9", "--variant", "long") == [
         "computed: $(half)",
@@ -313,7 +313,7 @@ def test_each_name_is_told_with_what_set_it_and_what_that_beat(nested: Path):
     ]
 
 
-def test_a_variant_and_a_default_in_an_included_file_are_told(nested: Path):
+def test_a_variant_and_a_default_in_an_included_file_are_reported(nested: Path):
     assert computed(nested, "links/left_tip/visual/sphere", "--variant", "long") == [
         'computed: "$(twice / 4)"',
         "  twice is 2.4 m, the variable $(reach * 2) at more.yaml:2:20",
@@ -327,7 +327,7 @@ def test_a_variant_and_a_default_in_an_included_file_are_told(nested: Path):
     )
 
 
-def test_a_value_that_is_handed_on_from_data_is_told_where_it_stands(nested: Path):
+def test_a_value_from_data_is_reported_in_its_file(nested: Path):
     assert computed(nested, "links/left_hand_palm/inertial/mass") == [
         'computed: "$(kin.masses[1])"',
         "  kin is a map, the content of kin.yaml, named at hand.robot.yaml:4:13",
@@ -347,12 +347,12 @@ def test_a_list_tells_the_names_of_its_parts_once_each(nested: Path):
     ]
 
 
-def test_a_name_of_for_is_told(nested: Path):
+def test_a_name_of_for_is_reported(nested: Path):
     lines = computed(nested, "links/left_hand_f_1/visual/0/origin/xyz/0")
     assert "  i is 1, one of 'for' 2 at hand.robot.yaml:8:21" in lines
 
 
-def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Path):
+def test_a_parameter_overridden_in_with_is_shown_with_what_it_replaced(nested: Path):
     patch = "override: {modules: {hand: {with: {width: 0.3 m}}}}"
     text = NESTED["cell.robot.yaml"].replace("parent: table", f"parent: table, {patch}")
     (nested / "cell.robot.yaml").write_text(text)
@@ -364,7 +364,7 @@ def test_what_an_override_hands_to_a_module_is_told_with_what_it_beat(nested: Pa
     ]
 
 
-def test_a_map_is_summarized_without_the_defaults_that_nobody_wrote(cell: Path):
+def test_a_map_is_summarized_without_unwritten_defaults(cell: Path):
     run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow", cwd=cell)
     assert "limits: {effort: 20, velocity: 1}" in run.stdout
     assert "dynamics" not in run.stdout

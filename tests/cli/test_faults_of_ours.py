@@ -45,7 +45,7 @@ def test_a_fault_of_ours_says_what_to_report(
     assert written.rstrip().endswith("ZeroDivisionError: by zero")
 
 
-def test_the_traceback_is_shown_where_it_is_asked_for(
+def test_the_traceback_is_shown_on_request(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], reports: Path
 ):
     plant(monkeypatch, ZeroDivisionError("by zero"))

@@ -38,7 +38,7 @@ def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.Captu
     assert capfd.readouterr().err.splitlines() == [f"wrote {spec}", f"{spec} is up to date"]
 
 
-def test_a_loss_is_told_and_is_a_failure_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     spec = tmp_path / "arm.robot.yaml"
     urdf = arm('some text<link name="base"/>')
     assert main(["import", urdf, "-o", str(spec)]) == 0
@@ -53,7 +53,7 @@ def test_a_loss_is_told_and_is_a_failure_if_strict(arm, tmp_path: Path, capfd: p
 
 
 @pytest.mark.parametrize("quieter", [["-q"], ["--ignore", "LF8101"], ["--select", "LF5"]])
-def test_a_loss_that_strict_fails_for_is_told_whatever_is_left_out(
+def test_a_loss_that_fails_strict_is_reported_even_if_ignored(
     arm, quieter: list[str], capfd: pytest.CaptureFixture[str]
 ):
     assert main(["import", arm("some text"), "--strict", *quieter]) == 1
@@ -63,7 +63,7 @@ def test_a_loss_that_strict_fails_for_is_told_whatever_is_left_out(
     assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 
-def test_strict_says_that_it_writes_nothing_where_there_are_errors(arm, capfd: pytest.CaptureFixture[str]):
+def test_strict_reports_that_nothing_is_written_if_there_are_errors(arm, capfd: pytest.CaptureFixture[str]):
     assert main(["import", arm('<link name="base"/>'), "--strict", "--werror"]) == 1
     assert capfd.readouterr().err.endswith("\nnothing written: there are errors\n")
 
@@ -89,7 +89,7 @@ def test_the_version_that_a_capsule_needs_is_no_loss(arm, capfd: pytest.CaptureF
     assert "LF8131" in capfd.readouterr().err
 
 
-def test_a_robot_that_is_wrong_is_told_where_the_urdf_is(arm, capfd: pytest.CaptureFixture[str]):
+def test_an_error_of_a_robot_is_reported_in_the_urdf(arm, capfd: pytest.CaptureFixture[str]):
     urdf = arm('<joint name="j" type="fixed"><parent link="base"/><child link="tool"/></joint>')
     assert main(["import", urdf]) == 1
     told = capfd.readouterr()
@@ -121,7 +121,7 @@ def test_a_spec_that_was_changed_is_replaced_by_force_only(arm, tmp_path: Path, 
     assert spec.read_text().startswith("linkforge: 1")
 
 
-def test_a_mesh_beside_the_urdf_and_not_beside_the_spec_is_told(arm, tmp_path: Path):
+def test_a_mesh_next_to_the_urdf_but_not_to_the_spec_is_reported(arm, tmp_path: Path):
     (tmp_path / "rod.stl").write_text("solid rod\nendsolid rod\n")
     rod = '<visual><geometry><mesh filename="rod.stl"/></geometry></visual>'
     urdf = arm(
@@ -165,7 +165,7 @@ def test_a_urdf_comes_from_standard_input(tmp_path: Path):
     assert refused.stderr.startswith("<stdin>:1:")
 
 
-def test_the_xacro_on_standard_input_is_told_as_no_file_of_that_name(tmp_path: Path):
+def test_a_xacro_on_standard_input_is_refused_with_a_file_name_to_use(tmp_path: Path):
     xacro = '<robot name="arm"><xacro:include filename="x"/></robot>'
     run = linkforge("import", "-", cwd=tmp_path, stdin=xacro)
     assert (run.returncode, run.stdout) == (1, "")
@@ -184,7 +184,7 @@ def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
 
 
 @pytest.mark.parametrize(("words", "robot"), [(["arm.urdf", "arm.srdf"], "arm.urdf"), (["arm.srdf"], "ROBOT.urdf")])
-def test_an_srdf_among_the_words_is_told_with_its_option(
+def test_an_srdf_as_a_positional_argument_is_reported_with_its_option(
     words: list[str], robot: str, capfd: pytest.CaptureFixture[str]
 ):
     assert main(["import", *words]) == 2
@@ -206,7 +206,7 @@ def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):
     assert "'arm.robot.yaml' is a spec already; import takes a URDF" in capfd.readouterr().err
 
 
-def test_who_waits_at_a_terminal_is_told_for_what(arm, monkeypatch: pytest.MonkeyPatch):
+def test_a_long_wait_at_a_terminal_is_explained(arm, monkeypatch: pytest.MonkeyPatch):
     class Terminal(StringIO):
         def isatty(self) -> bool:
             return True
@@ -232,12 +232,12 @@ def test_the_robot_itself_is_never_written_over(arm, capfd: pytest.CaptureFixtur
     assert "would be replaced" in capfd.readouterr().err
 
 
-def test_a_file_that_is_not_there_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_missing_file_is_reported(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     assert main(["import", str(tmp_path / "arm.urdf")]) == 1
     assert "LF3001" in capfd.readouterr().err
 
 
-def test_a_file_in_another_encoding_than_it_says_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_file_in_another_encoding_than_declared_is_reported(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     urdf = tmp_path / "arm.urdf"
     urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
     assert main(["import", str(urdf)]) == 1
@@ -253,7 +253,7 @@ def test_standard_input_is_no_srdf(arm, capfd: pytest.CaptureFixture[str]):
     assert capfd.readouterr().err == f"linkforge import: --srdf {words}\nlinkforge diff: --after-srdf {words}\n"
 
 
-def test_a_xacro_finds_its_packages_where_they_are_said_to_be(tmp_path: Path):
+def test_a_xacro_finds_its_packages_in_the_given_folders(tmp_path: Path):
     pytest.importorskip("xacro")
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "part.xacro").write_text('<robot><link name="part"/></robot>')

@@ -82,7 +82,7 @@ def test_a_second_robot_joins_the_schema_and_is_missed_in_cmake(tmp_path: Path):
     assert "put into" not in linkforge("init", "hand", "--dir", ".", cwd=tmp_path).stderr
 
 
-def test_what_stands_at_the_top_of_a_package_or_repository_is_not_written_twice(tmp_path: Path):
+def test_files_at_the_top_of_a_package_or_repository_are_not_written_twice(tmp_path: Path):
     package = tmp_path / "src" / "arm_description"
     package.mkdir(parents=True)
     (tmp_path / ".git").mkdir()
@@ -133,7 +133,7 @@ def test_what_git_ignores_everywhere_is_not_ignored_again(tmp_path: Path):
     assert not (tmp_path / "hand/.gitignore").exists()
 
 
-def test_what_kept_files_lack_is_told_as_one_would_put_it_in(tmp_path: Path):
+def test_missing_lines_of_existing_files_are_shown_ready_to_insert(tmp_path: Path):
     (tmp_path / ".git").mkdir()
     mine = {
         ".pre-commit-config.yaml": "repos:\n",
@@ -161,7 +161,7 @@ def test_what_kept_files_lack_is_told_as_one_would_put_it_in(tmp_path: Path):
     assert "put into" not in linkforge("init", "arm", "--dir", "robots", cwd=tmp_path).stderr
 
 
-def test_what_is_beside_it_is_not_run(
+def test_files_next_to_it_are_not_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ):
     def run_xacro(*_words: object) -> NoReturn:
@@ -210,11 +210,10 @@ def test_the_files_for_tools_are_what_these_read(tmp_path: Path):
     (hook,) = repository["hooks"]
     assert hook["id"] == "linkforge-check"
     assert linkforge(*hook["entry"].split()[1:], cwd=folder).returncode == 0
-    assert re.search(hook["files"], "arm.robot.yaml")
-    assert hook["pass_filenames"] is False
+    assert (hook["always_run"], hook["pass_filenames"]) == (True, False)
 
 
-def test_its_cmake_finds_the_function_and_gives_it_what_it_takes(tmp_path: Path):
+def test_its_cmake_finds_the_function_and_passes_valid_arguments(tmp_path: Path):
     cmake = shutil.which("cmake")
     assert cmake, "the extra `dev` has it"
     linkforge("init", "arm", cwd=tmp_path)

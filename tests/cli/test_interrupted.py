@@ -47,7 +47,7 @@ def test_a_disk_that_is_full_leaves_the_old_file_and_nothing_else(tmp_path: Path
     assert {path.name: path.read_text() for path in tmp_path.glob("*out*")} == {"out.urdf": "old"}
 
 
-def test_a_folder_that_is_gone_before_the_file_is_in_it_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_folder_removed_before_the_file_is_written_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """What the spec was read from may be gone as well by then."""
     spec = tmp_path / "a.robot.yaml"
     spec.write_text(SPEC + JOINTS)
@@ -78,7 +78,7 @@ def test_a_name_may_be_as_long_as_names_can_be(letter: str, tmp_path: Path):
 
 
 @pytest.mark.skipif(hasattr(os, "geteuid") and os.geteuid() == 0, reason="root writes everywhere")
-def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path):
+def test_an_unwritable_folder_is_reported(tmp_path: Path):
     run = compiler(tmp_path, 2)
     run.communicate(timeout=120)
     tmp_path.chmod(0o500)

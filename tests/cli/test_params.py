@@ -78,7 +78,7 @@ def test_the_parameters_are_json_for_tools(arm: Path):
     assert listed["variants"][1] == {"name": "bare", "sets": {"tool": "none"}}
 
 
-def test_a_faulty_declaration_is_told_beside_the_others(arm: Path):
+def test_a_faulty_declaration_is_reported_with_the_others(arm: Path):
     (arm / "arm.robot.yaml").write_text(ARM.replace("default: 800 mm", "default: 3 kg"))
     run = linkforge("params", "arm.robot.yaml", cwd=arm)
     assert run.returncode == 1

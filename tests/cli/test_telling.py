@@ -129,7 +129,7 @@ def test_no_more_is_read_of_standard_input_than_of_a_file(specs: Path):
     assert "standard input is larger than 16 MiB" in run.stderr
 
 
-def test_colours_are_written_where_they_are_asked_for(specs: Path):
+def test_colors_are_written_on_request(specs: Path):
     always = linkforge("check", "faulty.robot.yaml", "--color", "always", cwd=specs, NO_COLOR="1")
     assert "\033[1;31merror:" in always.stderr
     never = linkforge("check", "faulty.robot.yaml", "--color", "never", cwd=specs, FORCE_COLOR="1")

@@ -58,7 +58,7 @@ def test_several_documents_need_a_folder(folder: Path):
 
 
 @pytest.mark.parametrize("words", [("--format", "urdf"), ("-o", "arm.urdf"), ("-o", "arm.urdf", "-o", "arm.srdf")])
-def test_urdf_is_written_by_the_templates_where_it_is_asked_for(words: tuple[str, ...], folder: Path):
+def test_urdf_is_written_by_the_templates_on_request(words: tuple[str, ...], folder: Path):
     (folder / "t" / "urdf").mkdir()
     (folder / "t" / "urdf" / "joint.xml.j2").write_text("<mine n='{{ robot.joints.names[0] }}'/>")
     written, _ = compile_by(folder, *words)
@@ -149,7 +149,7 @@ def test_a_fault_leaves_all_documents_as_they_were(folder: Path):
     assert (folder / "out" / "notes.md").read_text() == f"# {BANNER}\n2 links\n"
 
 
-def test_faults_of_templates_are_told_as_all_others_are(folder: Path):
+def test_faults_of_templates_are_reported_as_all_others_are(folder: Path):
     (folder / "t" / "notes.md.j2").write_text("{{ robot.nam }}")
     _, told = compile_by(folder, "-o", "out/", "--diagnostics", "json", expect=1)
     (diagnostic,) = json.loads(told)["diagnostics"]
@@ -207,7 +207,7 @@ def test_no_template_is_written_over(folder: Path):
         (("--template", "t", "--check"), "--check compares with files"),
     ],
 )
-def test_what_cannot_be_meant_is_wrong_usage(words: tuple[str, ...], told: str, folder: Path):
+def test_contradictory_options_are_wrong_usage(words: tuple[str, ...], told: str, folder: Path):
     (folder / "empty").mkdir()
     (folder / "two").mkdir()
     (folder / "two" / "a.md.j2").touch()

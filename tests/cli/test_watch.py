@@ -79,7 +79,7 @@ def test_a_change_of_a_module_compiles_again(cell: Path, watch: Callable[..., li
     assert '<link name="arm_gripper"/>' in (cell / "out" / "cell.urdf").read_text()
 
 
-def test_errors_are_told_and_the_output_stays_until_they_are_mended(cell: Path, watch: Callable[..., list[str]]):
+def test_errors_are_reported_and_the_output_stays_until_they_are_fixed(cell: Path, watch: Callable[..., list[str]]):
     def is_still_there(folder: Path) -> None:
         assert '<link name="arm_hand"/>' in (folder / "out" / "cell.urdf").read_text()
 
@@ -96,7 +96,7 @@ def test_a_file_that_is_missed_is_waited_for(watch: Callable[..., list[str]]):
     assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
 
 
-def test_several_outputs_that_somebody_deletes_are_told_as_such(cell: Path, watch: Callable[..., list[str]]):
+def test_several_deleted_outputs_are_reported_together(cell: Path, watch: Callable[..., list[str]]):
     def removes_both(folder: Path) -> None:
         for path in (folder / "out").iterdir():
             path.unlink()
@@ -148,7 +148,7 @@ def test_a_template_that_is_new_is_rendered_and_a_fault_in_it_waited_for(cell: P
     assert (cell / "out" / "b.md").read_text() == "right"
 
 
-def test_templates_beside_what_they_write_do_not_compile_for_ever(cell: Path, watch: Callable[..., list[str]]):
+def test_templates_next_to_their_output_do_not_compile_for_ever(cell: Path, watch: Callable[..., list[str]]):
     by_templates(cell / "out")
     told = watch(sets("out/a.md.j2", "changed"), nothing, nothing, words=("--template", "out"))
     assert [line for line in told if line.startswith("wrote")] == ["wrote out/a.md"] * 2
@@ -160,7 +160,7 @@ def test_an_output_that_somebody_deletes_is_made_again(cell: Path, watch: Callab
     assert (cell / "out" / "cell.urdf").exists()
 
 
-def test_an_output_that_the_command_takes_away_is_not_missed(cell: Path, watch: Callable[..., list[str]]):
+def test_an_output_removed_by_the_command_is_not_missed(cell: Path, watch: Callable[..., list[str]]):
     assert watch(nothing, nothing, words=("--then", "mv out/cell.urdf robot.urdf")) == ["wrote out/cell.urdf", WATCHING]
 
 
@@ -218,7 +218,7 @@ def test_what_changes_while_the_command_runs_is_seen(watch: Callable[..., list[s
     assert told[2:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
 
 
-def test_a_command_runs_behind_each_compile_without_errors(cell: Path, watch: Callable[..., list[str]]):
+def test_a_command_runs_after_each_compile_without_errors(cell: Path, watch: Callable[..., list[str]]):
     told = watch(
         sets("arm.robot.yaml", ARM.replace("hand: ", "hand: {colision: visual}")),
         sets("arm.robot.yaml", ARM.replace("hand", "gripper")),
@@ -228,7 +228,7 @@ def test_a_command_runs_behind_each_compile_without_errors(cell: Path, watch: Ca
     assert told.count("'grep -c link out/cell.urdf >> counts; exit 3' ended with exit code 3") == 2
 
 
-def test_a_command_that_fails_is_told_also_where_all_else_is_quiet(watch: Callable[..., list[str]]):
+def test_a_failing_command_is_reported_even_with_quiet(watch: Callable[..., list[str]]):
     assert watch(nothing, words=("-q", "--then", "exit 3")) == ["'exit 3' ended with exit code 3"]
 
 
@@ -252,7 +252,7 @@ def test_what_is_saved_while_it_is_compiled_is_compiled_again(
     assert '<link name="arm_gripper"/>' in (cell / "out" / "cell.urdf").read_text()
 
 
-def test_what_cannot_be_done_is_told_until_it_is_mended(watch: Callable[..., list[str]]):
+def test_a_refused_output_is_reported_until_it_is_fixed(watch: Callable[..., list[str]]):
     told = watch(
         sets("cell.robot.yaml", CELL.replace("arm.robot.yaml", "out/cell.urdf")),
         sets("cell.robot.yaml", CELL),
@@ -287,7 +287,7 @@ def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watc
         (("cell.robot.yaml", "-o", "out/", "--then", " "), "--then takes a command, found nothing"),
     ],
 )
-def test_what_cannot_be_watched_is_told(
+def test_what_cannot_be_watched_is_reported(
     cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], said: str
 ):
     assert main(["watch", *words]) == 2

@@ -23,7 +23,7 @@ def line_of(build: Path, text: str) -> int:
     return next(number for number, line in enumerate(lines, start=1) if text in line)
 
 
-def test_a_line_is_told_with_what_wrote_it_and_the_files_between(build: Path):
+def test_a_line_is_shown_with_its_source_and_the_files_between(build: Path):
     number = line_of(build, "<limit ")
     run = linkforge("where", f"build/cell.urdf:{number}:14", cwd=build)
     assert (run.returncode, run.stderr) == (0, "")
@@ -39,7 +39,7 @@ def test_a_line_is_told_with_what_wrote_it_and_the_files_between(build: Path):
     ]
 
 
-def test_a_name_is_told_where_it_is_written(build: Path):
+def test_a_name_is_reported_where_it_is_written(build: Path):
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
     assert run.returncode == 0
     assert run.stdout.splitlines()[:2] == [
@@ -48,12 +48,12 @@ def test_a_name_is_told_where_it_is_written(build: Path):
     ]
 
 
-def test_what_nobody_wrote_is_told_as_such(build: Path):
+def test_an_unwritten_value_is_shown_as_such(build: Path):
     run = linkforge("where", "build/cell.urdf:1", cwd=build)
     assert run.stdout.splitlines()[1:] == ["no source is recorded for this line"]
 
 
-def test_a_document_and_a_spec_that_changed_are_told(build: Path):
+def test_a_changed_document_and_a_changed_spec_are_reported(build: Path):
     urdf = build / "build" / "cell.urdf"
     urdf.write_text(urdf.read_text() + "\n")
     (build / "arm.robot.yaml").write_text("# new\n" + ARM)
@@ -101,14 +101,14 @@ def test_without_a_map_the_header_tells_how_to_get_one(build: Path):
         (("build:3",), "there is no file 'build'"),
     ],
 )
-def test_wrong_usage_is_told(build: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(build: Path, words: tuple[str, ...], said: str):
     run = linkforge("where", *words, cwd=build)
     assert (run.returncode, run.stdout) == (2, "")
     assert said in run.stderr
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"version": 9}', "[" * 100_000])
-def test_a_broken_map_is_told(build: Path, text: str):
+def test_a_broken_map_is_reported(build: Path, text: str):
     (build / "build" / "cell.urdf.map.json").write_text(text)
     run = linkforge("where", "build/cell.urdf:3", cwd=build)
     assert (run.returncode, run.stdout) == (2, "")
@@ -123,14 +123,14 @@ def test_a_broken_map_is_told(build: Path, text: str):
         ("<!DOCTYPE robot>\n<robot/>", "it has a document type in line 1"),
     ],
 )
-def test_a_file_that_is_no_xml_is_told(build: Path, text: str, reason: str):
+def test_a_file_that_is_not_xml_is_reported(build: Path, text: str, reason: str):
     (build / "build" / "cell.urdf").write_text(text)
     run = linkforge("where", "build/cell.urdf", "left_elbow", cwd=build)
     assert run.returncode == 2
     assert f"'build/cell.urdf' is not XML: {reason}" in run.stderr
 
 
-def test_a_map_lies_beside_each_output_and_says_nothing_of_the_machine(build: Path):
+def test_each_output_has_a_map_without_machine_paths(build: Path):
     plain = linkforge("compile", "cell.robot.yaml", "-o", "plain/", cwd=build)
     assert plain.returncode == 0
     assert (build / "plain" / "cell.urdf").read_bytes() == (build / "build" / "cell.urdf").read_bytes()

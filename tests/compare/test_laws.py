@@ -129,7 +129,7 @@ def test_a_robot_is_like_itself(robot: Robot):
 
 @settings(max_examples=15)
 @given(robots(), robots())
-def test_what_is_told_of_any_two_robots_goes_into_json(before: Robot, after: Robot):
+def test_the_differences_of_any_two_robots_can_be_json(before: Robot, after: Robot):
     differences = compare(before, after)
     json.dumps([(one.kind, one.path, one.before, one.after, one.text) for one in differences], allow_nan=False)
     assert all(one.text for one in differences)
@@ -144,7 +144,7 @@ orders_of_shapes = st.lists(st.sampled_from(("collision", "visual", *COLORS)), m
 
 @settings(max_examples=40)
 @given(orders_of_shapes)
-def test_an_order_is_told_exactly_where_mujoco_shows_another_color(orders: tuple[list[tuple[int, str]], ...]):
+def test_an_order_is_reported_exactly_if_mujoco_shows_another_color(orders: tuple[list[tuple[int, str]], ...]):
     before, after = (Robot("r", links=[link_of(shapes)]) for shapes in orders)
     seen, now_seen = map(seen_in_mujoco, orders)
     assert len(compare(before, after)) == sum(seen[shape] != now_seen[shape] for shape in seen)

@@ -95,7 +95,7 @@ def told(old: str, new: str) -> list[str]:
         ("upper: Adjacent", "cart: Adjacent", "added semantic/disabled_collisions/base/cart: reason Adjacent"),
     ],
 )  # fmt: skip
-def test_a_change_is_told_with_its_units_and_by_how_much(old: str, new: str, text: str):
+def test_a_change_is_shown_with_units_and_its_amount(old: str, new: str, text: str):
     assert text in told(old, new)
 
 
@@ -109,7 +109,7 @@ def test_a_change_is_told_with_its_units_and_by_how_much(old: str, new: str, tex
         ("reduction: 50", "reduction: 50, offset: 0", "added transmissions/drive/joints/elbow/offset: 0 deg"),
     ],
 )  # fmt: skip
-def test_what_a_part_states_although_it_is_so_by_default_is_told_as_that_field(old: str, new: str, text: str):
+def test_a_stated_default_is_shown_as_its_field(old: str, new: str, text: str):
     was = SPEC.replace("imu: {}", "imu: {angular_velocity_noise: {stddev: 1}}")
     now = was.replace(old, new)
     there, back = (compare(*map(robot_of, pair)) for pair in ((was, now), (now, was)))
@@ -145,7 +145,7 @@ extra_attributes: {stamp: "007", gain: "0.20"}
         ("</self_filter>", "</self_filter><new/>", ["added extra/new: <new/>"]),
     ],
 )  # fmt: skip
-def test_raw_xml_is_compared_by_what_it_says_and_told_where_it_differs(old: str, new: str, texts: list[str]):
+def test_raw_xml_is_compared_by_content_and_reported_where_it_differs(old: str, new: str, texts: list[str]):
     spec = SPEC + RAW
     assert old in spec
     there = compare(robot_of(spec), robot_of(spec.replace(old, new)))
@@ -176,7 +176,7 @@ def test_tags_of_one_kind_in_raw_xml_have_an_order():
         ("<foo><plugin>1.10</plugin></foo>", "<foo><plugin>1.1</plugin></foo>", ["extra/foo/plugin: 1.10 → 1.1"]),
     ],
 )  # fmt: skip
-def test_elements_texts_and_numbers_of_raw_xml_are_told_apart(before: str, after: str, texts: list[str]):
+def test_elements_texts_and_numbers_of_raw_xml_are_distinguished(before: str, after: str, texts: list[str]):
     was, now = (robot_of(f"{SPEC}extra: ['{raw}']") for raw in (before, after))
     assert [f"{'/'.join(one.path)}: {one.text}" for one in compare(was, now)] == texts
 
@@ -230,7 +230,7 @@ def test_many_tags_of_raw_xml_are_compared_in_time_that_grows_with_them():
     assert time.process_time() - started < 2
 
 
-def test_two_values_are_told_as_far_as_it_takes_to_see_that_they_differ():
+def test_two_values_are_shown_until_they_differ():
     note = "a note that is longer than what a line can bear, and says what matters at its very end, which is "
     before, after = (
         robot_of(
@@ -247,25 +247,25 @@ def test_two_values_are_told_as_far_as_it_takes_to_see_that_they_differ():
     ]
 
 
-def test_a_shape_that_is_new_is_told_with_its_size_and_where_it_is():
+def test_a_new_shape_is_shown_with_its_size_and_pose():
     assert told(
         "cart: {visual: {sphere: {radius: 0.1}}}",
         "cart: {visual: [{sphere: {radius: 0.1}}, {box: [1, 1, 2], origin: [0, 0, 5 mm]}]}",
     ) == ["added links/cart/visual/1: box, size 1 1 2 m, at 0 0 0.005 m"]
 
 
-def test_of_a_long_path_both_ends_are_told():
+def test_of_a_long_path_both_ends_are_shown():
     path = f"package://{'_'.join(['long'] * 20)}/meshes/visual/upper.stl"
     [text] = told("package://arm/upper.stl", path)
     assert text.endswith("→ package://long_long_long_long_long…g_long_long/meshes/visual/upper.stl")
 
 
-def test_a_state_that_is_new_is_told_with_its_positions_and_their_units():
+def test_a_new_state_is_shown_with_its_positions_and_units():
     text = "added semantic/group_states/arm/out: elbow 90 deg, rail 0.5 m"
     assert told("home: {elbow: 0, rail: 0}", "home: {elbow: 0, rail: 0}, out: {elbow: 90 deg, rail: 0.5}") == [text]
 
 
-def test_a_joint_that_turned_and_slides_now_is_told_with_the_units_of_each():
+def test_a_change_from_revolute_to_prismatic_shows_both_units():
     spec = (
         SPEC.replace("type: prismatic", "type: revolute")
         .replace("rail: 0}", "rail: 0.5}")
@@ -322,12 +322,12 @@ def test_many_shapes_of_one_link_find_their_own_in_time_that_grows_with_them():
     assert time.process_time() - started < 5
 
 
-def test_a_change_is_told_once():
+def test_a_change_is_reported_once():
     assert len(told("color: [1, 0, 0, 1]", "color: [0, 0, 1, 1]")) == 1
     assert len(told("parent: base, child: upper", "parent: torso, child: upper")) == 1
 
 
-def test_what_is_new_and_what_is_gone_are_told_in_few_words():
+def test_additions_and_removals_are_shown_in_few_words():
     spec = re.sub(r"  torso:.*\n", "  tool0:\n", SPEC).replace("child: torso", "child: tool0, origin: [0, 0, 1]")
     assert [
         (one.kind, one.path, one.text) for one in compare(robot_of(SPEC), robot_of(spec)) if one.path[0] == "links"
@@ -363,20 +363,20 @@ TO_NONE = "color 1 0 0 1 → none in MuJoCo, that of the visual before it"
          f"visual: [{RED}, {{sphere: 2}}], collision: {{sphere: 3}}, shape_order: [visual, collision, visual]", {}),
     ],
 )  # fmt: skip
-def test_a_shape_that_another_visual_colors_in_mujoco_is_told(before: str, after: str, recolored: dict[str, str]):
+def test_a_shape_colored_by_another_visual_in_mujoco_is_reported(before: str, after: str, recolored: dict[str, str]):
     head = "linkforge: 1\nname: r\nmaterials: {red: {color: [1, 0, 0]}, green: {color: [0, 1, 0]}}\nlinks: {a: "
     one, other = (robot_of(f"{head}{{{link}}}}}") for link in (before, after))
     found = {"/".join(each.path[2:]): each.text for each in compare(one, other)}
     assert {path: text for path, text in found.items() if "MuJoCo" in text} == recolored
 
 
-def test_a_material_that_comes_out_behind_the_links_is_told():
+def test_a_material_written_after_the_links_is_reported():
     after = SPEC.replace("red: {color: [1, 0, 0, 1]}", "red: {color: [1, 0, 0, 1], after_links: true}")
     (told,) = compare(robot_of(SPEC), robot_of(after))
     assert (told.path, told.text) == (("materials", "red", "after_links"), "before the links → behind the links")
 
 
-def test_float_noise_is_not_told_and_the_tolerance_says_what_is_noise():
+def test_float_noise_below_the_tolerance_is_not_reported():
     before, after = (
         robot_of(SPEC),
         robot_of(SPEC.replace("upper: 0.5", "upper: 0.5000001").replace("mass: 2", "mass: 2.000001")),
@@ -385,7 +385,7 @@ def test_float_noise_is_not_told_and_the_tolerance_says_what_is_noise():
     assert len(compare(before, after, tolerance=0)) > 1
 
 
-def test_renamed_links_and_joints_are_told_as_such_and_nothing_that_names_them_is():
+def test_renamed_links_and_joints_are_reported_without_references_to_them():
     before = everything()
     text = re.sub(r"\b(finger|shoulder|axle)\b", r"\1_b", write_spec(before))
     after = robot_of(text)
@@ -404,7 +404,7 @@ def test_renamed_links_and_joints_are_told_as_such_and_nothing_that_names_them_i
     ]
 
 
-def test_a_renamed_state_is_told_as_such_unless_another_one_is_like_it():
+def test_a_renamed_state_is_recognized_unless_another_is_similar():
     old, new = "arm: {home: {elbow: 0, rail: 0}}", "arm: {rest: {elbow: 0, rail: 0}}"
     assert told(old, new) == ["renamed semantic/group_states/arm/rest: was 'home'"]
     before, after = (

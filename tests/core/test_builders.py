@@ -75,7 +75,7 @@ def test_a_fixed_joint_drops_what_it_may_not_have():
     assert (joint.axis, joint.limits, joint.dynamics) == (None, None, None)
 
 
-def test_the_rest_of_a_joint_is_told_call_by_call():
+def test_the_rest_of_a_joint_is_set_call_by_call():
     link = on_base().continuous((0, 0, 1)).dynamics(0.1, 0.2).mimic("other", 2.0).safety(k_velocity=3.0)
     (joint,) = link.calibration(rising=0.5).at_origin(rpy=(0, 0, 1)).build().joints
     assert (joint.dynamics.friction, joint.mimic.joint, joint.safety_controller.k_velocity) == (0.2, "other", 3.0)
@@ -116,7 +116,7 @@ def test_child_goes_on_below():
     assert robot.joints.names == ("a_to_b", "last")
 
 
-def test_a_committed_link_takes_nothing_more():
+def test_a_committed_link_refuses_additions():
     link = on_base()
     link.commit()
     with pytest.raises(RuntimeError, match="already committed"):
@@ -128,7 +128,7 @@ def test_a_link_with_a_parent_is_no_root():
         on_base().root()
 
 
-def test_a_collision_takes_after_the_last_visual():
+def test_a_collision_has_the_color_of_the_last_visual():
     robot = on_base().visual(box(1, 2, 3), xyz=(0, 0, 1)).collision().collision(xyz=(0, 0, 2)).build()
     first, second = robot.link("arm").collisions
     assert first.geometry == second.geometry == box(1, 2, 3)
@@ -145,7 +145,7 @@ def test_a_material_is_named_after_it_was_defined():
         builder.link("other").visual(sphere(1), material="blue")
 
 
-def test_an_inertia_is_that_of_the_shape_where_nobody_gives_one():
+def test_a_missing_inertia_is_that_of_the_shape():
     link = on_base().visual(sphere(9)).collision(sphere(0.5), xyz=(0, 0, 1)).mass(10.0).build().link("arm")
     assert link.inertial == Inertial(10.0, Transform(Vector3(0, 0, 1)), InertiaTensor(1.0, 1.0, 1.0))
 
@@ -158,7 +158,7 @@ def test_an_inertia_is_that_of_all_shapes_together():
     assert math.isclose(inertial.inertia.izz, 5.0)
 
 
-def test_a_given_inertia_or_centre_stands():
+def test_a_given_inertia_or_centre_is_kept():
     given = on_base().visual(sphere(1)).mass(1.0, origin_xyz=(1, 0, 0)).inertia(1, 2, 3).build().link("arm").inertial
     assert given == Inertial(1.0, Transform(Vector3(1, 0, 0)), InertiaTensor(1, 2, 3))
     assert on_base().mass(1.0).build().link("arm").inertia == InertiaTensor.stability_floor()
@@ -235,7 +235,7 @@ def test_another_robot_is_attached():
     assert [(pair.link1, pair.link2) for pair in robot.semantic.disabled_collisions] == [("flange", "u_body")]
 
 
-def test_planning_is_told_before_the_links_are_finished():
+def test_planning_is_set_before_the_links_are_finished():
     builder = RobotBuilder("robot")
     builder.link("base")
     semantic = builder.semantic.group("arm", base_link="base", tip_link="tip").group_state("up", "arm", {"j": 1})
@@ -254,7 +254,7 @@ def test_planning_is_told_before_the_links_are_finished():
         semantic.group("arm", links=["base"])
 
 
-def test_building_refuses_what_is_no_tree_unless_told_not_to():
+def test_building_refuses_what_is_not_a_tree_unless_disabled():
     builder = RobotBuilder("robot")
     builder.link("a")
     builder.link("b")

@@ -251,7 +251,7 @@ def test_dataclasses_gives_the_fields_of_the_contract_first(name):
     assert names[: len(FIELDS[name])] == list(FIELDS[name])
 
 
-def test_what_nobody_has_semantically_is_an_empty_description():
+def test_missing_semantics_are_an_empty_description():
     assert core.Robot("r").semantic == SemanticRobotDescription(robot_name="r")
 
 

@@ -45,7 +45,7 @@ def test_target_and_value_are_left_out_where_there_are_none_but_zero_is_a_value(
     assert str(RobotValidationError(ValidationErrorCode.NO_ROOT, "no root", value=0)) == "[NO_ROOT] no root (value: 0)"
 
 
-def test_a_plain_model_error_takes_a_sentence_as_any_exception_does():
+def test_a_plain_model_error_accepts_a_sentence_as_any_exception_does():
     error = RobotModelError("no such arm")
     assert str(error) == error.message == "no such arm"
     assert error.code is ValidationErrorCode.GENERIC_FAILURE

@@ -65,7 +65,7 @@ def test_it_cannot_be_changed(change):
     assert frozen == {"a": 1}
 
 
-def test_it_is_a_dict_to_whoever_asks_for_one():
+def test_it_is_an_instance_of_dict():
     frozen = FrozenMap({"a": 1, "b": FrozenMap({"c": 2})})
     assert isinstance(frozen, dict)
     assert json.dumps(frozen) == '{"a": 1, "b": {"c": 2}}'

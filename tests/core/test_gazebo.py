@@ -21,7 +21,7 @@ PLUGIN = GazeboPlugin("control", "libcontrol.so", {"rate": "100"})
         (lambda: GazeboElement(stop_erp=math.nan), ValidationErrorCode.INVALID_VALUE, "stop_erp"),
     ],
 )
-def test_what_no_simulator_takes_is_refused(make, code, field):
+def test_what_no_simulator_accepts_is_refused(make, code, field):
     with pytest.raises(RobotValidationError) as caught:
         make()
     assert caught.value.code is code

@@ -8,14 +8,17 @@ from linkforge_compile.core.exceptions import RobotMathError, RobotPhysicsError,
 from linkforge_compile.core.models.geometry import (
     Box,
     Capsule,
+    Color,
     Cylinder,
     Geometry,
     GeometryType,
+    Material,
     Mesh,
     Sphere,
     Transform,
     Vector3,
 )
+from linkforge_compile.core.models.joint import Joint, JointType
 
 NO_NUMBERS = [math.nan, math.inf, -math.inf, 10**400]
 
@@ -37,7 +40,7 @@ def test_a_vector_refuses_what_is_no_number_at_its_position(number, position):
     assert caught.value.field == (position,)
 
 
-def test_identity_is_the_pose_that_a_part_has_unless_said():
+def test_identity_is_the_default_pose_of_a_part():
     assert Transform.identity() == Transform() == Transform(Vector3(0, 0, 0), Vector3(0, 0, 0))
     assert str(Transform(Vector3(1, 2, 3))) == "xyz: 1 2 3, rpy: 0.0 0.0 0.0"
 
@@ -95,3 +98,18 @@ def test_a_mesh_may_be_mirrored_and_nameless_but_not_flat():
     with pytest.raises(RobotPhysicsError) as caught:
         Mesh("hand.stl", Vector3(1, 1, 0))
     assert caught.value.field == ("scale", 2)
+
+
+@pytest.mark.parametrize("numbers", [[1, 2, 3], (1, 2, 3)])
+def test_a_list_of_numbers_becomes_what_the_type_names(numbers):
+    vector = Vector3(1, 2, 3)
+    assert Box(numbers).size == Mesh("package://p/a.stl", scale=numbers).scale == Transform(numbers).xyz == vector
+    assert Box(numbers).volume() == 6
+    assert hash(Box(numbers)) == hash(Box(vector))
+    assert Material("m", [1, 0, 0, 0.5]).color == Color(1, 0, 0, 0.5)
+    assert Joint("j", JointType.CONTINUOUS, "a", "b", axis=[0, 0, 1]).axis == Vector3(0, 0, 1)
+
+
+def test_a_list_with_a_number_that_is_refused_is_refused():
+    with pytest.raises(RobotMathError):
+        Box([1, 2, math.inf])

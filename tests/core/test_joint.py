@@ -41,7 +41,7 @@ def test_every_type_has_its_degrees_of_freedom_also_when_given_as_text(kind):
     assert joint(kind).degrees_of_freedom == joint(str(kind)).degrees_of_freedom == DEGREES[kind]
 
 
-def test_a_type_that_nobody_knows_is_held_and_fails_when_asked():
+def test_an_unknown_type_is_stored_and_fails_on_use():
     with pytest.raises(KeyError):
         _ = joint("screw").degrees_of_freedom
 
@@ -77,7 +77,7 @@ def test_a_fixed_joint_may_have_dynamics_mimic_and_calibration():
         (("elbow", "revolute", "a", "b"), ValidationErrorCode.INVALID_VALUE, "JointAxis", ("axis",)),
     ],
 )
-def test_names_are_judged_before_the_type(fields, code, target, field):
+def test_names_are_checked_before_the_type(fields, code, target, field):
     error = refusal(lambda: Joint(*fields))
     assert (error.code, error.target, error.field) == (code, target, field)
 
@@ -96,7 +96,7 @@ def test_an_axis_is_a_unit_vector_to_the_ninth_digit(axis):
     assert refusal(lambda: joint("continuous", axis=Vector3(*axis))).code is ValidationErrorCode.INVALID_VALUE
 
 
-def test_an_axis_that_was_read_otherwise_is_kept_beside_the_unit_one():
+def test_an_axis_that_is_not_normalized_is_kept_with_the_unit_one():
     read = joint("continuous", axis_as_written=Vector3(2, 0, 0))
     assert read.axis_as_written == Vector3(2, 0, 0)
     assert read == joint("continuous")

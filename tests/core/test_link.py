@@ -33,7 +33,7 @@ def test_a_tensor_holds_any_finite_numbers_for_real_robots_have_them(entries):
     assert InertiaTensor(*entries).ixx == entries[0]
 
 
-def test_a_tensor_takes_its_diagonal_first():
+def test_a_tensor_has_its_diagonal_first():
     tensor = InertiaTensor(1, 2, 3, 0.1, 0.2, 0.3)
     assert (tensor.ixx, tensor.iyy, tensor.izz) == (1, 2, 3)
     assert (tensor.ixy, tensor.ixz, tensor.iyz) == (0.1, 0.2, 0.3)
@@ -103,7 +103,7 @@ def test_a_link_needs_a_name_that_urdf_readers_read(name, code):
     assert Link("2nd.base/link").name == "2nd.base/link"
 
 
-def test_shapes_are_added_behind_those_that_are_there():
+def test_shapes_are_added_after_existing_ones():
     link = Link("base", visuals=[Visual(BALL)], collisions=[Collision(BALL)])
     link.add_visual(Visual(Box(Vector3(1, 1, 1))))
     link.add_collision(Collision(BALL, name="touch"))

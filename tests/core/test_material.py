@@ -8,7 +8,7 @@ from linkforge_compile.core.exceptions import RobotValidationError, ValidationEr
 from linkforge_compile.core.models.geometry import Color, Material
 
 
-def test_a_color_is_opaque_unless_said():
+def test_a_color_is_opaque_by_default():
     assert Color(0.1, 0.2, 0.3).to_tuple() == (0.1, 0.2, 0.3, 1.0)
     assert str(Color(0, 0.5, 1)) == "0 0.5 1 1.0"
 

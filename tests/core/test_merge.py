@@ -93,7 +93,7 @@ def test_the_robot_keeps_what_is_its_own_and_the_component_stays_as_it_was():
     assert component == gripper()
 
 
-def test_the_connecting_joint_is_fixed_unless_said_and_leads_to_the_root():
+def test_the_connecting_joint_is_fixed_by_default_and_ends_at_the_root():
     robot = station().merge(gripper(), "table", "mount", prefix="left_")
     assert robot.joint("mount") == Joint("mount", JointType.FIXED, "table", "left_palm")
     pose, axis, limits = Transform(Vector3(0, 0, 1)), Vector3(1, 0, 0), JointLimits(-1, 1)
@@ -101,7 +101,7 @@ def test_the_connecting_joint_is_fixed_unless_said_and_leads_to_the_root():
     assert robot.joint("hinge") == Joint("hinge", JointType.REVOLUTE, "table", "right_palm", pose, axis, limits)
 
 
-def test_the_connecting_joint_takes_the_rest_from_a_given_joint():
+def test_the_connecting_joint_copies_the_rest_of_a_given_joint():
     given = Joint(
         "any",
         JointType.FIXED,
@@ -190,7 +190,7 @@ def test_states_of_one_name_belong_to_their_groups():
     [{"end_effectors": [EndEffector("tool", "g", "palm")]}, {"passive_joints": [PassiveJoint("wheel")]}],
     ids=["end effector", "passive joint"],
 )
-def test_nothing_semantic_is_said_twice(said):
+def test_nothing_semantic_is_written_twice(said):
     robot = station().add_semantic(SemanticRobotDescription(**said))
     with pytest.raises(RobotModelError, match="Duplicate"):
         robot.merge(with_only(semantic=SemanticRobotDescription(**said)), "table", "mount")
@@ -203,7 +203,7 @@ def test_equal_materials_may_share_a_name():
 
 
 @pytest.mark.parametrize(("own", "added"), [(True, True), (True, False), (False, True), (False, False)])
-def test_a_material_that_two_robots_have_stands_behind_the_links_if_both_say_so(own: bool, added: bool):
+def test_a_material_of_two_robots_is_after_the_links_if_it_is_in_both(own: bool, added: bool):
     robot = Robot("own", materials={"skin": Material("skin", RED, after_links=own), "bone": Material("bone", RED)})
     robot.merge(Robot("added", materials={"skin": Material("skin", RED, after_links=added)}), None, None)
     assert list(robot.materials) == ["skin", "bone"]
@@ -265,7 +265,7 @@ print("networkx" in sys.modules)
     assert run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "False\n"
 
 
-def test_links_of_one_name_are_told_as_such_and_not_as_what_follows_from_them():
+def test_links_of_one_name_are_reported_without_follow_on_errors():
     arm = Robot("arm", links=[Link("base"), Link("tool")], joints=[Joint("j", "fixed", "base", "tool")])
     for module in (
         Robot("module", links=[Link("tool")]),  # not as a joint from a link to itself
@@ -281,7 +281,7 @@ def test_links_of_one_name_are_told_as_such_and_not_as_what_follows_from_them():
         assert arm == before
 
 
-def test_what_is_merged_stands_behind_in_its_order_and_the_mount_last():
+def test_merged_parts_follow_in_their_order_and_the_mount_is_last():
     arm = Robot("arm", links=[Link("z")])
     module = Robot("module", links=[Link("c"), Link("a"), Link("b")])
     module.joints = [Joint("cb", "fixed", "c", "b"), Joint("ba", "fixed", "b", "a")]
@@ -325,7 +325,7 @@ class Rated(Joint):
         object.__setattr__(self, "label", f"{self.name}: {self.payload} kg")
 
 
-def test_a_part_of_a_class_of_ones_own_takes_a_prefix_and_is_made_anew():
+def test_a_part_of_a_user_class_gets_a_prefix_in_a_new_instance():
     robot = Robot("arm", links=[Link("a"), Link("b")])
     robot.add_joint(Rated("j", "fixed", "a", "b", payload=3.0))
     robot.prefix_all("left_")
@@ -338,7 +338,7 @@ class Marked(Link):
         return Link(f"{prefix}marked_{self.name}")
 
 
-def test_a_link_of_a_class_of_ones_own_is_asked_for_its_copy():
+def test_a_link_of_a_user_class_makes_its_own_copy():
     robot = Robot("arm", links=[Marked("a")])
     robot.prefix_all("left_")
     assert [link.name for link in robot.links] == ["left_marked_a"]
@@ -358,7 +358,7 @@ class Told(Visual):
     with_prefix = told(Visual.with_prefix)
 
 
-def test_a_part_with_a_wrapped_way_of_its_own_is_asked_for_its_copy():
+def test_a_part_with_a_wrapped_copy_method_makes_its_own_copy():
     visuals = (Told(Box(Vector3(1, 1, 1))),)
     merged = Robot("station").merge(Robot("arm", links=[Link("a", visuals=visuals)]), None, None, "left_")
     assert merged.links[0].visuals[0].name == "told"

@@ -172,13 +172,13 @@ def assert_same(left: Inertial, right: Inertial) -> None:
 # What is no solid
 
 
-def test_a_hole_is_told_with_its_size_and_place():
+def test_a_hole_is_reported_with_its_size_and_place():
     error = fault(content(without_a_face(block(2, 2, 2)), "stl"))
     assert (error.fault, error.code) == (MeshFault.OPEN, ValidationErrorCode.MESH_BOUNDARY_EDGE)
     assert error.message.startswith("3 of its 18 edges are open, the first at [")
 
 
-def test_a_hole_is_told_with_its_body():
+def test_a_hole_is_reported_with_its_body():
     mesh = together(block(2, 2, 2), without_a_face(block(2, 2, 2, at=(5, 0, 0))), block(2, 2, 2, at=(9, 0, 0)))
     assert (
         "3 of its 54 edges are open, in 1 of its 3 bodies, the first at ["
@@ -325,7 +325,7 @@ def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypat
         (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is no number of a vertex"),
     ],
 )
-def test_a_corner_that_is_no_vertex_is_told_with_its_line(face, told):
+def test_a_corner_without_a_vertex_is_reported_with_its_line(face, told):
     assert fault(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + face + b"\n", "part.obj").message == told
 
 

@@ -38,5 +38,5 @@ def test_what_has_no_name_gets_none():
 @pytest.mark.parametrize(
     ("topic", "expected"), [("scan", "left_scan"), ("/scan", "/scan"), ("~/scan", "~/scan"), (None, None)]
 )
-def test_a_topic_that_says_where_it_lives_is_kept(topic, expected):
+def test_an_absolute_topic_is_kept(topic, expected):
     assert prefixed_topic("left_", topic) == expected

@@ -105,7 +105,7 @@ def test_a_part_with_other_fields_keeps_where_it_was_written(part):
 
 
 @pytest.mark.parametrize("cls", sorted(PART_CLASSES, key=lambda cls: cls.__name__), ids=lambda cls: cls.__name__)
-def test_what_is_ours_stands_behind_the_contract_and_only_by_keyword(cls):
+def test_additional_parameters_follow_the_contract_and_are_keyword_only(cls):
     parameters = inspect.signature(cls).parameters
     assert "source" not in parameters
     if issubclass(cls, Element):
@@ -129,7 +129,7 @@ def test_nothing_can_be_added_to_a_part_on_the_side():
 
 
 @given(parts)
-def test_a_part_takes_where_it_was_written_to_another_process(part):
+def test_a_pickled_part_keeps_its_source(part):
     there = pickle.loads(pickle.dumps(part.with_source(WRITTEN)))
     assert there == part
     assert str(there.source.span) == "arm.robot.yaml:1:1"

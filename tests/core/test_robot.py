@@ -77,7 +77,7 @@ def test_collections_of_any_kind_become_tuples():
     assert robot.extra_attributes == (("xmlns:d", "u"),)
 
 
-def test_a_version_is_stated_by_whoever_names_another_than_the_default():
+def test_a_version_is_stated_if_it_is_not_the_default():
     assert not Robot("r").version_stated
     assert Robot("r", "2.0").version_stated
     assert Robot("r", version_stated=True).version == "1.1"
@@ -212,7 +212,7 @@ def test_text_and_summary_are_those_of_the_contract():
     ]
 
 
-def test_the_summary_of_a_broken_robot_says_what_is_known():
+def test_the_summary_of_a_broken_robot_has_what_is_known():
     assert "  Status: INVALID\n  Root: 2 roots" in Robot("r", links=[Link("a"), Link("b")]).summary()
     loose = Robot("r", joints=[Joint("j", "fixed", "a", "b")])
     assert "  Status: INVALID\n  Root: Unknown" in loose.summary()
@@ -261,7 +261,7 @@ def test_disabling_all_collisions_makes_every_pair_or_none():
     assert fresh == arm()
 
 
-def test_properties_and_spheres_are_said_once():
+def test_properties_and_spheres_are_written_once():
     robot = arm().add_joint_property("elbow", "wraparound", "true")
     robot.approximate_link_collision("base", [SrdfSphere(0, 0, 0, 0.1)])
     with refusal(Code.DUPLICATE_NAME):
@@ -338,7 +338,7 @@ def test_a_pickle_carries_no_graph():
     assert len(pickle.dumps(robot)) == slim
 
 
-def test_reading_what_is_said_semantically_changes_nothing():
+def test_reading_the_semantics_changes_nothing():
     one, other = Robot("one"), Robot("one")
     assert other.semantic.robot_name == "one"
     one.name = other.name = "two"
@@ -346,7 +346,7 @@ def test_reading_what_is_said_semantically_changes_nothing():
     assert one.semantic.robot_name == other.semantic.robot_name == "two"
 
 
-def test_what_is_said_semantically_is_said_of_the_robot_by_its_name_of_now():
+def test_the_semantics_refer_to_the_robot_by_its_current_name():
     robot = Robot("one", links=[Link("a")], semantic=SemanticRobotDescription("elsewhere"))
     robot.disable_default_collisions("a")
     assert robot.semantic.robot_name == "one"

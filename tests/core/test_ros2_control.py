@@ -92,7 +92,7 @@ def test_hardware_that_ros2_control_refuses_is_refused(make, code, field):
     assert caught.value.field == field
 
 
-def test_each_type_of_hardware_takes_what_it_should():
+def test_each_type_of_hardware_accepts_its_own_parts():
     assert Ros2Control("arm", "actuator", "p", [J]).joints == (J,)
     assert Ros2Control("arm", "sensor", "p", [READ]).joints == (READ,)
     assert Ros2Control("arm", hardware_plugin="p").type == "system"

@@ -110,7 +110,7 @@ def test_a_prefix_reaches_every_name_but_the_frame_of_the_world():
     )
 
 
-def test_merging_puts_the_other_behind_and_keeps_the_name():
+def test_merging_appends_the_other_and_keeps_the_name():
     merged = WHOLE.merge_with(WHOLE.with_prefix("x_"))
     assert merged.robot_name == "arm"
     assert [group.name for group in merged.groups] == ["g", "x_g"]
@@ -143,7 +143,7 @@ def test_states_of_one_name_in_two_groups_are_two_states():
     assert [state.group for state in WHOLE.merge_with(home).group_states] == ["g", "other"]
 
 
-def test_a_pair_that_both_disable_is_there_once_as_the_first_says_it():
+def test_a_pair_disabled_by_both_is_written_once_with_the_first_reason():
     other = SemanticRobotDescription(
         disabled_collisions=[CollisionPair("b", "a", "Default"), CollisionPair("c", "d"), CollisionPair("d", "c")],
         no_default_collision_links=["d"],

@@ -16,7 +16,7 @@ J, K = TransmissionJoint("j"), TransmissionJoint("k")
 A, B = TransmissionActuator("a"), TransmissionActuator("b")
 
 
-def test_an_end_has_position_and_a_reduction_of_one_unless_said():
+def test_an_end_has_position_and_a_reduction_of_one_by_default():
     assert (J.hardware_interfaces, J.mechanical_reduction, J.offset) == (("position",), 1.0, 0.0)
     assert TransmissionJoint("j", mechanical_reduction=None).mechanical_reduction is None
     assert TransmissionActuator("a", ["effort"], -50).hardware_interfaces == ("effort",)
@@ -83,7 +83,7 @@ def test_a_simple_transmission_gives_the_reduction_to_the_joint():
     )
 
 
-def test_a_differential_transmission_names_the_motors_that_nobody_named():
+def test_a_differential_transmission_names_unnamed_motors():
     made = Transmission.create_differential("t", "j", "k", actuator2_name="b", mechanical_reduction=2)
     assert [joint.mechanical_reduction for joint in made.joints] == [2, 2]
     assert [actuator.name for actuator in made.actuators] == ["j_motor", "b"]

@@ -72,7 +72,7 @@ def test_an_import_looks_no_longer_than_a_compile(monkeypatch: pytest.MonkeyPatc
     assert "; did you mean 'hand'?" not in wrong[-1]
 
 
-def test_a_name_that_nobody_can_compare_by_eye_is_not_offered():
+def test_a_name_too_long_to_compare_by_eye_is_not_suggested():
     assert nearest("ab" * 5_000, ["ab" * 5_000 + "c", "ab"]) is None
     assert nearest("hnad", ["ab" * 5_000, "hand"]) == "hand"
 
@@ -144,7 +144,7 @@ def test_the_text_shows_the_line_and_a_caret_under_the_words():
         """)
 
 
-def test_colours_are_only_written_when_asked_for():
+def test_colors_are_only_written_on_request():
     told = UNKNOWN.at(CHILD, name="hnad")
     assert "\033[1;31merror:" in render_text([told], colour=True)
     assert "\033" not in render_text([told])

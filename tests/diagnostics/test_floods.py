@@ -19,7 +19,7 @@ def at(line: int) -> Span:
     return Span(FILE, line, 1, line, 2)
 
 
-def test_one_place_is_told_of_three_times_and_the_rest_counted():
+def test_one_place_is_reported_three_times_and_the_rest_counted():
     sink = Diagnostics()
     for _ in range(2):
         sink.report_all(ERROR.at(at(1), name=number) for number in range(1000))
@@ -49,7 +49,7 @@ def test_text_tells_three_times_of_a_name_that_a_file_has_nowhere_and_counts_the
     ]
 
 
-def test_behind_a_thousand_errors_the_compile_ends():
+def test_the_compile_ends_after_a_thousand_errors():
     sink = Diagnostics()
     sink.report_all(ERROR.at(at(line), name="x") for line in range(MAX_KEPT))
     with pytest.raises(BeyondLimitError) as beyond:
@@ -59,7 +59,7 @@ def test_behind_a_thousand_errors_the_compile_ends():
 
 
 @pytest.mark.parametrize("words", ["same", "{}"])
-def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_of_them_ends_the_compile(
+def test_after_very_many_errors_of_one_place_new_ones_are_reported_until_the_compile_ends(
     words: str, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(flood, "MAX_REPORTED", 50)
@@ -76,7 +76,7 @@ def test_behind_very_many_errors_of_one_place_what_is_new_is_told_and_one_more_o
     assert (errors[-1].code, errors[-1].span) == (TOO_MANY_ERRORS, at(2))
 
 
-def test_behind_very_many_warnings_that_are_not_told_the_compile_ends(monkeypatch: pytest.MonkeyPatch):
+def test_the_compile_ends_after_very_many_unreported_warnings(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(flood, "MAX_COUNTED", 50)
     sink = Diagnostics()
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_KEPT + 50))

@@ -65,7 +65,7 @@ def test_json_says_all_and_fits_its_schema():
     }
 
 
-def test_github_is_told_of_no_file_where_there_is_none():
+def test_github_annotations_have_no_file_where_there_is_none():
     assert render_github([UNKNOWN.at(Span(STDIN, 1, 1, 1, 2), name="tool")], root=CHECKOUT) == (
         "::error title=LF4102::<stdin>:1:1: no link named 'tool'\n"
     )
@@ -82,7 +82,7 @@ def test_the_schema_refuses_what_is_no_diagnostic():
     assert not jsonschema.Draft7Validator(schema).is_valid(whole)
 
 
-def test_github_is_told_the_worst_first_with_escaped_words():
+def test_github_annotations_are_escaped_with_the_worst_first():
     place = "file=robots/a%2C b.robot.yaml"
     assert render_github(EVERY, root=CHECKOUT).splitlines() == [
         f"::error {place},line=2,col=18,endLine=2,endColumn=22,title=LF4102"
@@ -94,8 +94,17 @@ def test_github_is_told_the_worst_first_with_escaped_words():
     ]
 
 
+PAGE = "# LF4102: no link\n\nA link is named that\nthe robot does not have.\n\n## Wrong\n"
+
+
+def sarif_log(diagnostics: tuple[Diagnostic, ...]) -> dict:
+    return json.loads(
+        render_sarif(diagnostics, root=CHECKOUT, version="1.2.3", manual=lambda _: PAGE, pages=Path("/doc"))
+    )
+
+
 def sarif_run(diagnostics: tuple[Diagnostic, ...]) -> dict:
-    log = json.loads(render_sarif(diagnostics, root=CHECKOUT, version="1.2.3", manual=lambda code: f"# {code.id}"))
+    log = sarif_log(diagnostics)
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
     return run
@@ -109,7 +118,9 @@ def test_sarif_has_a_rule_for_each_code_and_a_result_for_each_diagnostic():
     assert driver["rules"][1] == {
         "id": "LF4102",
         "shortDescription": {"text": "no link named '…'"},
-        "help": {"text": "run 'linkforge explain LF4102'", "markdown": "# LF4102"},
+        "fullDescription": {"text": "A link is named that the robot does not have."},
+        "help": {"text": "run 'linkforge explain LF4102'", "markdown": PAGE},
+        "helpUri": "file:///doc/LF4102.md",
         "defaultConfiguration": {"level": "error"},
     }
     assert [result["level"] for result in run["results"]] == ["note", "warning", "error", "error"]
@@ -162,6 +173,8 @@ RULE = closed(
     ("id",),
     id={"pattern": r"^LF\d{4}$"},
     shortDescription=TEXT,
+    fullDescription=TEXT,
+    helpUri={**URI, "pattern": "^[a-z]+:"},
     help={**TEXT, "properties": {**TEXT["properties"], "markdown": {"type": "string"}}},
     defaultConfiguration=closed(level=LEVEL),
 )
@@ -193,7 +206,7 @@ SARIF = closed(("version", "runs"), version={"const": "2.1.0"}, runs=some(RUN), 
 
 def test_sarif_is_as_the_standard_has_it():
     Draft7Validator.check_schema(SARIF)
-    log = json.loads(render_sarif(EVERY, root=CHECKOUT, version="1.2.3", manual=lambda code: f"# {code.id}"))
+    log = sarif_log(EVERY)
     assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
 
 
@@ -215,3 +228,13 @@ def test_the_problem_matcher_reads_the_text(diagnostic: Diagnostic, severity: st
         "message": message,
         "code": diagnostic.code.id,
     }
+
+
+def test_the_problem_matcher_reads_an_error_without_a_place():
+    """GitHub's runner shows a match without a file as an annotation of the step."""
+    (matcher,) = json.loads(matcher_file().read_text("utf-8"))["problemMatcher"]
+    (pattern,) = matcher["pattern"]
+    found = re.match(pattern["regexp"], render_text([EVERY[3]]).rstrip())
+    assert found is not None
+    assert (found[pattern["file"]], found[pattern["severity"]]) == (None, "error")
+    assert (found[pattern["message"]], found[pattern["code"]]) == ("no link named 'tool'", "LF4102")

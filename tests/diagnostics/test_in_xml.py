@@ -15,7 +15,7 @@ TOLD_ELSEWHERE = {
 }
 
 
-def test_what_has_words_of_its_own_for_xml_is_told_in_them_there():
+def test_messages_for_xml_have_their_own_wording():
     found = told(compile_file(CASE / "cell.robot.yaml"))
     files = [CASE / name for name in ("arm.urdf", "arm.srdf")]
     assert found == {one for file in files for one in expected_in_xml(file.name, file.read_text("utf-8"))}

@@ -26,7 +26,7 @@ def run(example: Example, folder: Path, capfd: pytest.CaptureFixture[str]) -> tu
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
-def test_a_page_begins_with_its_code_and_what_the_code_says(path: Path):
+def test_a_page_begins_with_its_code_and_message(path: Path):
     page = Page.read(path)
     assert page.heading == f"# {heading(REGISTER[path.stem])}"
     assert len(page.paragraphs) >= 2, "a paragraph of what it says and when, and one of why it matters"
@@ -34,7 +34,7 @@ def test_a_page_begins_with_its_code_and_what_the_code_says(path: Path):
 
 
 @pytest.mark.parametrize("path", SHOWN, ids=lambda path: path.stem)
-def test_a_wrong_example_is_told_and_the_right_one_is_not(
+def test_a_wrong_example_is_reported_and_the_right_one_is_not(
     path: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ):
     sections = Page.read(path).sections

@@ -24,11 +24,11 @@ REPORT = (HEAVY, ERROR, ODD, HINT)
         (Selection(errors_only=True), [ERROR]),
     ],
 )
-def test_warnings_and_notes_are_chosen_and_errors_always_told(selection: Selection, told: list[object]):
+def test_warnings_and_notes_are_selected_and_errors_always_reported(selection: Selection, told: list[object]):
     assert list(selection.of(REPORT)) == told
 
 
-def test_warnings_are_errors_where_that_is_asked_for_and_notes_are_not():
+def test_warnings_are_errors_on_request_and_notes_are_not():
     told = Selection(ignore=("LF6",), warnings_are_errors=True).of(REPORT)
     assert [(one.code.id, one.severity) for one in told] == [
         ("LF5001", Severity.ERROR),
@@ -51,7 +51,7 @@ def fault(what: str, line: int):
     return FAULT.at(Span(SourceFile("arm.yaml", ""), line, 1, line, 2), what=what)
 
 
-def test_each_fault_is_told_once_and_says_where_it_shows():
+def test_each_fault_is_reported_once_with_its_place():
     runs = {
         "the defaults": [fault("all", 3)],
         "variant 'a'": [fault("some", 2), fault("all", 3)],

@@ -293,7 +293,7 @@ HOVERS = {
 
 
 @pytest.mark.parametrize(("document", "phrases"), HOVERS.values(), ids=HOVERS)
-def test_what_is_told_where_the_mouse_rests(server: LanguageServer, document: str, phrases: list[str]):
+def test_hover_text_contains_the_phrases(server: LanguageServer, document: str, phrases: list[str]):
     shown = server.hover(HEAD + document)
     assert [phrase for phrase in phrases if phrase not in shown] == []
 

@@ -186,7 +186,7 @@ def test_a_variant_sets_the_parameters_of_its_file(server: LanguageServer, shop:
     ]
 
 
-def test_a_parameter_is_put_in_with_its_default_and_told(server: LanguageServer, shop: str):
+def test_a_parameter_is_inserted_with_its_default_and_reported(server: LanguageServer, shop: str):
     document = f"{HEAD}modules:\n  a:\n    use: ../parts/arm.robot.yaml\n    with:\n      "
     found = {one.label: one for one in server.completions(f"{document}|", f"{shop}/cells/cell.robot.yaml")}
     assert found["reach"].inserted == "reach: ${1:0.7 m}"
@@ -218,7 +218,7 @@ def test_nothing_is_underlined_in_an_example(server: LanguageServer, lessons: Pa
     assert server.faults(modeline + spec.read_text("utf-8"), f"lessons/{place}") == []
 
 
-def test_every_validator_takes_it_and_finds_no_more_than_in_the_language(tmp_path: Path):
+def test_every_validator_accepts_it_and_finds_no_more_than_the_language(tmp_path: Path):
     schema = json.loads(schema_text(written(tmp_path)))
     Draft7Validator.check_schema(schema)
     assert Draft7Validator(schema).is_valid({"linkforge": 1, "joints": {"weld": {"parent": "anything"}}})

@@ -62,7 +62,7 @@ def test_short_forms_are_long_on_both_sides(change):
     assert made.at("links", "cover", "collision") == [{"box": [1, 1, 1], "origin": [0, 0, 1]}]
 
 
-def test_a_written_null_deletes_and_an_expression_of_null_says_nothing(change):
+def test_a_written_null_deletes_and_an_expression_of_null_has_no_effect(change):
     made = change("joints: {wrist: {limits: {lower: null, effort: $(nothing)}, axis: ~}}", "{nothing: $(null)}")
     assert made.at("joints", "wrist", "limits") == {"effort": 1}
     assert made.at("joints", "wrist", "axis") is None

@@ -250,7 +250,7 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_reported_once(tmp_p
     assert Path(diagnostic.span.file.name).name == "gripper.urdf"
 
 
-def test_of_a_list_and_of_a_text_with_several_names_the_override_says_the_whole(tmp_path):
+def test_an_override_replaces_a_list_and_a_text_with_several_names_as_a_whole(tmp_path):
     plugin = '<plugin name="p" filename="p.so"><on>palm</on><on>table</on><all>palm, table</all></plugin>'
     gripper = GRIPPER.replace("</robot>", f"<gazebo>{plugin}</gazebo></robot>")
     said = " ".join(told(compiled(tmp_path, USED, gripper)))
@@ -258,7 +258,7 @@ def test_of_a_list_and_of_a_text_with_several_names_the_override_says_the_whole(
     assert "{all: ...}}}}}' where this file is used, '...' being the whole text with that name in it" in said
 
 
-def test_of_several_raw_elements_the_override_says_the_one_again(tmp_path):
+def test_an_override_repeats_one_of_several_raw_elements(tmp_path):
     gripper = GRIPPER.replace("</robot>", '<sensing range="1"/><sensing link="finger"/></robot>')
     [one] = told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper))
     assert "change it to 'g_finger' by 'override: {extra: {1: ...}}' where" in one

@@ -50,6 +50,38 @@ def test_an_unknown_variant_is_reported_as_typed():
     )
 
 
+def test_of_several_variants_the_last_one_that_sets_a_parameter_decides():
+    assert values(variant="sim+lab")[:2] == ["gazebo", "0.2"]
+    assert values(variant="lab+plain+sim")[:2] == ["gazebo", "0.2"]
+    clashing = SPEC.replace("lab: {reach: 20 cm}", "lab: {hardware: real}")
+    found = [compile_text(clashing, variant=name).result().metadata["hardware"] for name in ("sim+lab", "lab+sim")]
+    assert found == ["real", "gazebo"]
+
+
+def test_variants_that_set_a_parameter_to_different_values_are_reported_unless_it_is_given():
+    clashing = SPEC.replace("lab: {reach: 20 cm}", "lab: {hardware: real}")
+    (warning,) = compile_text(clashing, name="arm.robot.yaml", variant="sim+lab").diagnostics
+    assert str(warning) == (
+        "arm.robot.yaml:6:19: warning: parameter 'hardware' is set by variant 'lab', which replaces what variant 'sim' "
+        "sets [LF3081]"
+    )
+    assert [str(note.span) for note in warning.notes] == ["arm.robot.yaml:5:19"]
+    assert not compile_text(clashing, variant="sim+lab", parameters=["hardware=mock"]).diagnostics
+    same = SPEC.replace("lab: {reach: 20 cm}", "lab: {hardware: gazebo}")
+    assert not compile_text(same, variant="sim+lab").diagnostics
+
+
+def test_a_variant_with_a_plus_in_its_name_is_one():
+    spec = SPEC.replace("plain:", "sim+lab: {hardware: real}")
+    assert compile_text(spec, variant="sim+lab").result().metadata["hardware"] == "real"
+
+
+def test_each_unknown_name_of_several_variants_is_reported_at_its_place():
+    found = compile_text(SPEC, name="arm.robot.yaml", variant="lab+simm+other").diagnostics
+    assert [str(one).partition(": error")[0] for one in found] == ["<command line>:1:15", "<command line>:1:20"]
+    assert [one.code.id for one in found] == ["LF3080", "LF3080"]
+
+
 @pytest.mark.parametrize(
     ("variants", "said"),
     [

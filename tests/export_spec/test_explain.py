@@ -71,14 +71,14 @@ def expression(explanation: Explanation) -> str:
     return link.name
 
 
-def test_a_value_is_told_with_its_unit_and_its_place(arm: Robot):
+def test_a_value_is_shown_with_its_unit_and_place(arm: Robot):
     mass = explain(arm, "links/upper/inertial/mass")
     assert (mass.text, mass.is_written) == ("links/upper/inertial/mass: 2 kg", True)
     assert mass.provenance is not None
     assert (mass.provenance.span.line, mass.provenance.span.text) == (6, "2 kg")
 
 
-def test_a_computed_value_is_told_with_its_expression_and_the_uses_that_led_there(cell: Robot):
+def test_a_computed_value_is_shown_with_its_expression_and_uses(cell: Robot):
     effort = explain(cell, "joints/left_elbow/limits/effort")
     assert (effort.text, expression(effort)) == ("joints/left_elbow/limits/effort: 30 N*m", "$(strength)")
     assert line(effort) == 13
@@ -93,7 +93,7 @@ def test_a_computed_value_is_told_with_its_expression_and_the_uses_that_led_ther
         ("joints/tool/0_joint/type", "fixed", 15),
     ],
 )
-def test_what_nobody_wrote_is_told_as_such_with_what_it_belongs_to(arm: Robot, path: str, text: str, at: int):
+def test_an_unwritten_value_is_shown_as_such_with_its_owner(arm: Robot, path: str, text: str, at: int):
     found = explain(arm, path)
     assert (found.text, found.is_written, line(found)) == (f"{path}: {text}", False, at)
 
@@ -121,7 +121,7 @@ def test_a_state_of_a_module_is_found_under_the_name_that_its_file_gives_to_the_
     assert line(position) == 18
 
 
-def test_a_position_that_a_state_takes_over_is_told_where_it_is_written(tmp_path: Path):
+def test_a_position_copied_from_another_state_is_reported_where_it_is_written(tmp_path: Path):
     semantic = (
         "semantic:\n  groups: {all: {subgroups: [left_arm]}}\n  group_states: {all: {rest: {left_arm: left_home}}}\n"
     )
@@ -134,7 +134,7 @@ def test_a_position_that_a_state_takes_over_is_told_where_it_is_written(tmp_path
     assert [(Path(use.file.name).name, use.line) for use in uses(position)] == [("cell.robot.yaml", 6)]
 
 
-def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_prefix_are_told_apart(tmp_path: Path):
+def test_positions_of_joints_whose_names_differ_by_the_prefix_are_distinguished(tmp_path: Path):
     joints = "  left_elbow: {type: continuous, parent: upper, child: hand, axis: z}\n"
     arm = ARM.replace("joints:\n", f"joints:\n{joints}", 1).replace("  upper: {", "  hand:\n  upper: {")
     arm = arm.replace("arm: {joints: [elbow]}", "arm: {joints: [elbow, left_elbow]}")
@@ -148,7 +148,7 @@ def test_positions_of_joints_of_which_one_has_the_other_one_s_name_under_the_pre
         assert position.provenance.span.text == written
 
 
-def test_an_object_is_told_with_all_that_it_says_and_leaves_unsaid(arm: Robot):
+def test_an_object_is_shown_with_its_fields(arm: Robot):
     assert explain(arm, "joints/elbow/limits").text == (
         "joints/elbow/limits:\n  lower: 0\n  upper: 1.5707963267948966\n  effort: 20\n  velocity: 1"
     )
@@ -168,13 +168,13 @@ def test_what_was_built_in_python_was_written_nowhere():
         ("name/first", "there is no 'first' in 'name'", None),
     ],
 )
-def test_a_path_that_leads_nowhere_is_told_where_it_ends(arm: Robot, path: str, said: str, near: str | None):
+def test_a_path_that_does_not_exist_is_reported_where_it_ends(arm: Robot, path: str, said: str, near: str | None):
     with pytest.raises(UnknownPathError, match=said) as caught:
         explain(arm, path)
     assert near in caught.value.names if near else not caught.value.names
 
 
-def test_what_a_using_file_overrides_is_told_at_that_file(tmp_path: Path):
+def test_an_overridden_value_is_reported_at_the_overriding_file(tmp_path: Path):
     override = "    override: {joints: {elbow: {limits: {velocity: 2}}}, links: {upper: {visual: {sphere: 0.2}}}}\n"
     (tmp_path / "arm.robot.yaml").write_text(ARM)
     (tmp_path / "cell.robot.yaml").write_text(CELL + override)

@@ -147,7 +147,7 @@ def test_what_is_written_of_what_was_written_is_the_same(robot: Robot):
     assert write_spec(compiled(text)) == text
 
 
-def test_a_robot_that_says_everything_comes_back_as_it_was():
+def test_a_robot_with_every_feature_comes_back_unchanged():
     robot = everything()
     again = compiled(write_spec(robot))
     assert again == robot

@@ -29,7 +29,7 @@ def lines(text: str) -> str:
     return dedent(text).lstrip("\n")
 
 
-def test_a_link_takes_the_shortest_forms():
+def test_a_link_is_written_in_the_shortest_forms():
     ball = Visual(Sphere(0.1), Transform(Vector3(0, 0, 1)), STEEL)
     link = Link("ball", visuals=[ball], collisions=[Collision(ball.geometry, ball.origin)])
     assert spec(materials={"steel": STEEL}, links=[link, Link("tool0")]) == lines("""
@@ -55,7 +55,7 @@ def test_a_link_takes_the_shortest_forms():
         ("cvvcvvc", "collision, visual, shape_order: [collision, visual, visual, collision]"),
     ],
 )
-def test_the_order_of_shapes_is_said_in_the_shortest_words(shape_order: str, written: str):
+def test_the_order_of_shapes_is_written_in_the_shortest_form(shape_order: str, written: str):
     balls = [Sphere(1), Sphere(2)]
     kinds = [{"v": "visual", "c": "collision"}[letter] for letter in shape_order]
     link = Link("a", visuals=list(map(Visual, balls)), collisions=list(map(Collision, balls)), shape_order=kinds)
@@ -74,7 +74,7 @@ def test_what_differs_between_visual_and_collision_is_written_twice():
     """)
 
 
-def test_a_material_that_is_not_the_robots_stands_where_it_is_used():
+def test_a_material_that_is_not_the_robots_is_written_where_it_is_used():
     visuals = [Visual(Sphere(1), material=one) for one in (Material("red", Color(1, 0, 0, 0.5)), STEEL)]
     painted = replace(STEEL, texture="steel.png")
     assert spec(materials={"steel": painted}, links=[Link("a", visuals=visuals)]) == lines("""
@@ -96,7 +96,7 @@ def test_a_material_that_is_not_the_robots_stands_where_it_is_used():
         ((0.001, 0.001, 0.001), "mesh: {file: a.stl, scale: 0.001}"),
     ],
 )
-def test_a_mesh_says_its_scale_only_if_it_has_one(scale: tuple[float, float, float], said: str):
+def test_a_mesh_without_scale_writes_none(scale: tuple[float, float, float], said: str):
     link = Link("a", visuals=[Visual(Mesh("a.stl", Vector3(*scale)))])
     assert spec(links=[link]) == f"links:\n  a: {{visual: {{{said}}}}}\n"
 
@@ -170,7 +170,7 @@ def test_empty_links_before_others_stay_links_for_the_sake_of_their_order():
     """)
 
 
-def test_a_block_stands_beside_what_it_is_about_as_long_as_that_keeps_the_order():
+def test_a_block_follows_its_subject_if_the_order_allows():
     blocks = [
         GazeboElement("b", {"mu1": "0.9", "other": "1.10"}),
         GazeboElement("b", static=True),

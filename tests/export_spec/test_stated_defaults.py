@@ -195,7 +195,7 @@ WALKED = [(kind, field) for kind, field in defaults() if (kind, field.name) in P
 
 
 @pytest.mark.parametrize(("kind", "field"), WALKED, ids=[f"{kind.__name__}.{field.name}" for kind, field in WALKED])
-def test_a_default_that_is_said_comes_out_and_stays_said(kind: type, field: Field[object]):
+def test_a_written_default_is_written_again(kind: type, field: Field[object]):
     place = PLACES[kind, field.name]
     robot = compile_text(with_said(place.spec, as_written(default_of(field)))).result()
     urdf = render_urdf(robot)
@@ -203,6 +203,6 @@ def test_a_default_that_is_said_comes_out_and_stays_said(kind: type, field: Fiel
     assert render_urdf(compile_text(write_spec(robot)).result()) == urdf
 
 
-def test_what_is_not_said_does_not_come_out():
+def test_what_is_not_set_is_not_written():
     urdf = etree.fromstring(render_urdf(compile_text(yaml.safe_dump(ROBOT, sort_keys=False)).result()).encode())
     assert not urdf.xpath("//origin | //pose | //@scale | //mimic/@multiplier | //mimic/@offset | //offset | //kp")

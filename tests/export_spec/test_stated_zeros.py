@@ -27,7 +27,7 @@ def test_a_stated_zero_is_written(tag: str, count: int):
 
 
 @pytest.mark.parametrize("text", [STATED, UNSAID])
-def test_the_spec_that_is_written_back_says_as_much(text: str):
+def test_the_spec_that_is_written_back_is_complete(text: str):
     robot = compile_text(text).result()
     again = compile_text(write_spec(robot)).result()
     assert render_urdf(again) == render_urdf(robot)

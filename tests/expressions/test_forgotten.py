@@ -22,7 +22,7 @@ def place_of(text: str):
         "pi": "$(pi)",
     }.items(),
 )
-def test_text_that_computes_with_known_names_was_meant_for_an_expression(text: str, meant: str):
+def test_text_that_computes_with_known_names_is_a_forgotten_expression(text: str, meant: str):
     assert forgotten_expression(text, place_of(text), NAMES) == meant
 
 
@@ -45,7 +45,7 @@ def test_text_that_computes_with_known_names_was_meant_for_an_expression(text: s
         "a, a",
     ],
 )
-def test_other_text_was_meant_as_it_is(text: str):
+def test_other_text_is_kept_as_it_is(text: str):
     assert forgotten_expression(text, place_of(text), NAMES) is None
 
 

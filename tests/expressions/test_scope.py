@@ -49,7 +49,7 @@ def test_variables_may_use_one_another_in_any_order_and_are_computed_once():
     assert variables.computed == ["area", "side", "half"]
 
 
-def test_what_nobody_uses_is_not_computed():
+def test_unused_values_are_not_computed():
     variables = Variables({"a": "$(1)", "b": "$(nope)"})
     assert variables["a"] == 1
     assert variables.reported == []

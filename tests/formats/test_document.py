@@ -50,7 +50,7 @@ def test_a_banner_of_several_lines_is_one_comment():
     )
 
 
-def test_a_material_stands_before_the_links_or_behind_them():
+def test_a_material_is_before_or_after_the_links():
     red, blue = Material("red", Color(1, 0, 0), after_links=True), Material("blue", Color(0, 0, 1))
     document = etree.fromstring(
         render_urdf(Robot("r", materials={"red": red, "blue": blue}, links=[Link("a")])).encode()
@@ -134,7 +134,7 @@ def test_bytes_are_the_same_in_every_process():
 
 @pytest.mark.parametrize("version", [None, "1.0", "1.1"])
 @pytest.mark.parametrize("shape", [Sphere(1), Capsule(1, 2)])
-def test_a_turn_stands_where_readers_of_the_stated_version_look_for_it(version: str | None, shape: Sphere | Capsule):
+def test_a_rotation_is_written_where_readers_of_the_version_expect_it(version: str | None, shape: Sphere | Capsule):
     half = Transform(rpy=Vector3(0, 0, math.pi), extra_attributes=[("quat_xyzw", "0 0 1 0")])
     links = [Link("base", visuals=[Visual(shape, half)])]
     document = render_urdf(Robot("r", version or "1.1", version_stated=bool(version), links=links))
@@ -147,7 +147,7 @@ def test_a_turn_stands_where_readers_of_the_stated_version_look_for_it(version: 
 
 
 @pytest.mark.parametrize("shape", [Sphere(1), Capsule(1, 2)])
-def test_a_quaternion_that_turns_otherwise_is_told_where_it_is_read(shape: Sphere | Capsule):
+def test_a_quaternion_that_differs_from_rpy_is_reported_for_its_readers(shape: Sphere | Capsule):
     robot = Robot(
         "r", links=[Link("a", visuals=[Visual(shape, Transform(extra_attributes=[("quat_xyzw", "0 0 1 0")]))])]
     )

@@ -41,7 +41,7 @@ def robots(draw: st.DrawFn) -> Robot:
 
 @unhurried
 @given(robots(), st.booleans(), st.sampled_from(["gz", "classic"]))
-def test_a_document_is_well_formed_or_refused_and_told(robot: Robot, pretty: bool, gazebo: str):
+def test_a_document_is_well_formed_or_refused_with_a_report(robot: Robot, pretty: bool, gazebo: str):
     errors = [told for told in URDF.limits(robot, {"gazebo": gazebo}) if told.severity is Severity.ERROR]
     try:
         text = render_urdf(robot, pretty=pretty, gazebo=gazebo)
@@ -54,7 +54,7 @@ def test_a_document_is_well_formed_or_refused_and_told(robot: Robot, pretty: boo
 
 @unhurried
 @given(robots())
-def test_layout_changes_nothing_that_is_said(robot: Robot):
+def test_layout_changes_no_content(robot: Robot):
     documents = [render_srdf(robot, pretty=pretty) for pretty in (True, False)]
     assert len({etree.tostring(_without_layout(text), method="c14n") for text in documents}) == 1
 

@@ -45,11 +45,11 @@ def test_an_ordinary_robot_is_within_the_limits():
     assert not list(SRDF.limits(arm, {}))
 
 
-def test_a_robot_with_everything_is_told_of_its_capsule_alone():
+def test_a_robot_with_every_feature_is_reported_for_its_capsule_only():
     assert [code for code, _ in told(everything())] == ["LF7002"]
 
 
-def test_capsules_are_told_once():
+def test_capsules_are_reported_once():
     assert told(robot(Visual(Capsule(1, 1)), Visual(Capsule(2, 2)))) == [
         (
             "LF7002",
@@ -125,7 +125,7 @@ UNWRITABLE = {
 
 
 @pytest.mark.parametrize("faulty", UNWRITABLE.values(), ids=UNWRITABLE)
-def test_what_xml_cannot_hold_is_told_once_wherever_it_is(faulty: Robot):
+def test_what_xml_cannot_hold_is_reported_once_anywhere(faulty: Robot):
     [(code, message)] = told(faulty)
     assert code == "LF7001"
     assert message.startswith("this cannot be written as XML: ")

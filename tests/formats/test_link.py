@@ -85,7 +85,7 @@ def test_a_material_that_the_robot_has_otherwise_is_written_in_full():
     """)
 
 
-def test_what_no_field_says_stands_last():
+def test_extra_content_is_written_last():
     pose = Transform(extra_attributes=[("quat_xyzw", "0 0 0 1")])
     shape = Collision(
         Box(Vector3(1, 1, 1)), pose, extra_elements=["<surface><friction><mu>1</mu></friction></surface>"]

@@ -9,13 +9,13 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats import render_urdf
 from linkforge_compile.formats.element import parameter_elements
 from linkforge_compile.formats.raw import raw_elements
-from linkforge_compile.formats.xml_document import document_of, write
+from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import RawXmlError
 
 
 def laid_out(text: str) -> str:
     """Return the lines that a document has of a text, as far to the left as they go."""
-    lines = write(document_of(text), pretty=True).split("\n")
+    lines = write(parse_rendered(text), pretty=True).split("\n")
     return "\n".join(line.lstrip(" ") for line in lines)
 
 
@@ -46,7 +46,7 @@ KEPT_SPACE = '<a xml:space="preserve"> <b> </b> <c xml:space="default"/></a>'
         ("", ""),
     ],
 )
-def test_raw_xml_keeps_what_it_says_and_takes_our_layout(raw: str, lines: str):
+def test_raw_xml_keeps_its_content_and_gets_the_layout(raw: str, lines: str):
     assert laid_out(raw_elements(raw)) == lines
 
 
@@ -124,7 +124,7 @@ def test_raw_xml_that_is_none_is_refused(raw: str):
         ("\n" + "<a>" * 101, 298, "raw XML is nested more than 100 elements deep"),
     ],
 )
-def test_what_is_wrong_with_raw_xml_is_told_where_it_is(raw: str, at: int, problem: str):
+def test_a_fault_in_raw_xml_is_reported_at_its_place(raw: str, at: int, problem: str):
     with pytest.raises(RawXmlError) as refused:
         raw_elements(raw)
     assert (refused.value.at, refused.value.problem) == (at, problem)
@@ -168,7 +168,7 @@ def test_a_tag_may_be_in_any_language():
     assert laid_out(parameter_elements({"größe": "1", "ros:高さ": "2"})) == "<größe>1</größe>\n<ros:高さ>2</ros:高さ>"
 
 
-def test_text_beside_an_element_of_the_same_name_stays_xml():
+def test_text_next_to_an_element_of_the_same_name_stays_xml():
     robot = Robot(name="r", extra_elements=("<a>in <a x='1'/></a>",))
     assert '<a>in <a x="1"/></a>' in render_urdf(robot)
 

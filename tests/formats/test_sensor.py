@@ -224,7 +224,7 @@ def test_each_gazebo_has_its_own_words(kind: SensorType, gz: str, gz_tag: str, c
     assert classic_tag in old
 
 
-def test_sensors_stand_behind_the_written_gazebo_blocks_each_in_its_own():
+def test_sensors_follow_the_written_gazebo_blocks_each_in_its_own():
     written = urdf(
         sensors=[Sensor(name, SensorType.IMU, "base", imu_info=IMUInfo()) for name in ("one", "two")],
         gazebo_elements=[GazeboElement("base", material="Gazebo/Red")],
@@ -238,7 +238,7 @@ def test_sensors_stand_behind_the_written_gazebo_blocks_each_in_its_own():
     ]
 
 
-def test_a_simulator_that_nobody_knows_is_refused_with_the_choices():
+def test_an_unknown_simulator_is_refused_with_the_choices():
     with pytest.raises(ValueError, match="gazebo takes 'gz' or 'classic', found 'sim'"):
         render_urdf(Robot("r"), gazebo="sim")
     with pytest.raises(ValueError, match="gazebo takes 'gz' or 'classic', found 'sim'"):

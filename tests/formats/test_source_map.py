@@ -281,7 +281,7 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
     assert [how for step in whole["trails"][trail] for how in step] == ["included", "used"]
 
 
-def test_the_file_of_a_map_is_what_its_schema_says_and_reads_back(robot: Robot):
+def test_the_file_of_a_map_fits_its_schema_and_reads_back(robot: Robot):
     mapped = render_urdf_with_map(robot)
     text = map_text(*mapped, "robot.urdf", ROOT / "examples")
     SCHEMA.validate(json.loads(text))

@@ -13,7 +13,7 @@ from linkforge_compile.core import Robot
 from linkforge_compile.core.models.geometry import Transform, Vector3
 from linkforge_compile.formats import environment, render_urdf
 from linkforge_compile.formats.environment import make_environment, own_environment
-from linkforge_compile.formats.xml_document import document_of, write
+from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import Xml
 
 ROBOT = SimpleNamespace(
@@ -29,7 +29,7 @@ def rendered(text: str, name: str = "robot.xml.j2", **others: str) -> str:
 
 def written(text: str, *, pretty: bool = True, **others: str) -> list[str]:
     """Return the lines of the document that a template makes of it."""
-    return write(document_of(rendered(text, **others)), pretty=pretty).split("\n")
+    return write(parse_rendered(rendered(text, **others)), pretty=pretty).split("\n")
 
 
 def test_lines_stand_as_deep_as_their_elements():
@@ -127,7 +127,7 @@ def test_a_template_is_read_from_its_folder(folder: Path):
         ("<robot>\n{% include 'urdf/link.xml.j2' %}\n</robot>", 2, "'urdf/link.xml.j2' not found in search path"),
     ],
 )
-def test_a_template_of_ours_that_somebody_has_broken_is_told_at_its_place(
+def test_a_broken_builtin_template_is_reported_at_its_place(
     text: str, line: int, reason: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ):
     template = folder / "urdf" / "robot.xml.j2"
@@ -140,7 +140,7 @@ def test_a_template_of_ours_that_somebody_has_broken_is_told_at_its_place(
     assert said.endswith("; this template is a part of linkforge: mend it, or install linkforge again\n")
 
 
-def test_a_template_of_ours_that_is_gone_is_told(folder: Path, capsys: pytest.CaptureFixture[str]):
+def test_a_removed_builtin_template_is_reported(folder: Path, capsys: pytest.CaptureFixture[str]):
     spec = folder / "a.robot.yaml"
     spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
     assert main(["compile", str(spec)]) == 2

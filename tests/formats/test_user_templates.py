@@ -114,7 +114,7 @@ def test_a_document_of_xml_is_escaped_and_laid_out_as_urdf(tmp_path: Path):
         ("{# head #}\n<?xml version='1.0'?>\n<a\n b='1'\n/>", "<?xml version='1.0'?>\n<a b='1' />\n"),
     ],
 )
-def test_layout_changes_nothing_that_a_document_of_xml_says(text: str, laid_out: str, tmp_path: Path):
+def test_layout_changes_no_content_of_an_xml_document(text: str, laid_out: str, tmp_path: Path):
     assert rendered(text, tmp_path, "a.xml") == laid_out
 
 
@@ -185,7 +185,7 @@ SYNTAX, NAME, FAILS = (
         ("\n{% include 'a.md.j2' %}", "LF7205", 2, f"{FAILS}templates or macros use each other without an end"),
     ],
 )
-def test_a_fault_is_told_at_its_line(text: str, code: str, line: int, message: str, tmp_path: Path):
+def test_a_fault_is_reported_at_its_line(text: str, code: str, line: int, message: str, tmp_path: Path):
     found = fault(text, tmp_path)
     assert found.span
     assert (found.code.id, found.message, found.span.line) == (code, message, line)
@@ -193,7 +193,7 @@ def test_a_fault_is_told_at_its_line(text: str, code: str, line: int, message: s
     assert found.span.text == text.split("\n")[line - 1].strip()
 
 
-def test_a_template_that_is_not_there_is_told_with_one_that_is(tmp_path: Path):
+def test_a_missing_template_is_reported_with_a_similar_one(tmp_path: Path):
     (tmp_path / "_head.md.j2").write_text("head")
     found = fault("a\n{% include '_hed.md.j2' %}", tmp_path)
     assert str(found).endswith(
@@ -202,7 +202,7 @@ def test_a_template_that_is_not_there_is_told_with_one_that_is(tmp_path: Path):
     assert fault("{% include '../x.j2' %}", tmp_path).code.id == "LF7203"
 
 
-def test_a_fault_of_an_included_template_is_told_there_and_where_it_is_included(tmp_path: Path):
+def test_a_fault_of_an_included_template_is_reported_there_with_its_include(tmp_path: Path):
     (tmp_path / "_part.j2").write_text("\n{{ nosuch }}")
     found = fault("\n\n{% include '_part.j2' %}", tmp_path)
     assert found.span
@@ -212,7 +212,7 @@ def test_a_fault_of_an_included_template_is_told_there_and_where_it_is_included(
     assert (note.message, note.span.file.path, note.span.line) == ("included here", tmp_path / "a.md.j2", 3)
 
 
-def test_a_fault_of_each_template_is_told_at_once(tmp_path: Path):
+def test_the_faults_of_all_templates_are_reported_in_one_run(tmp_path: Path):
     write(tmp_path, a_md="{{ nosuch }}", b_md="{{ 1 / 0 }}", c_md="right")
     with pytest.raises(TemplateError) as refused:
         render_templates(ARM, tmp_path)
@@ -247,7 +247,7 @@ NO_TEXT = "has no text; write"
         ("{{ robot.graph.link_names }}", "a set has no order"),
     ],
 )
-def test_what_has_no_text_of_its_own_is_told(text: str, reason: str, tmp_path: Path):
+def test_a_value_without_a_text_form_is_reported(text: str, reason: str, tmp_path: Path):
     found = fault(f"\n{text}", tmp_path)
     assert found.span
     assert (found.code.id, found.span.line) == ("LF7205", 2)
@@ -298,7 +298,7 @@ def test_map_reports_a_name_that_is_not_there_as_a_dot_does(behind: str, tmp_pat
         ("<a>{{ '\\x07' }}</a>", "XML cannot hold the character U+0007, found in '\\x07'"),
     ],
 )
-def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_path: Path):
+def test_what_xml_cannot_hold_is_reported_at_its_line(text: str, reason: str, tmp_path: Path):
     found = fault(f"\n{text}", tmp_path, "a.xml")
     assert found.span
     assert (found.code.id, found.message, found.span.line) == ("LF7205", f"this template fails here: {reason}", 2)
@@ -319,12 +319,12 @@ def test_what_xml_cannot_hold_is_told_at_its_line(text: str, reason: str, tmp_pa
         ),
     ],
 )
-def test_what_is_no_xml_in_the_end_is_told(text: str, problem: str, tmp_path: Path):
+def test_output_that_is_not_xml_is_reported(text: str, problem: str, tmp_path: Path):
     found = fault(text, tmp_path, "a.xml")
     assert (found.code.id, found.message) == ("LF7206", f"this template makes XML that is not well-formed: {problem}")
 
 
-def test_what_is_no_xml_is_told_at_the_line_where_the_template_has_it(tmp_path: Path):
+def test_output_that_is_not_xml_is_reported_at_the_line_of_the_template(tmp_path: Path):
     found = fault("<a>\n{{ '<b>' | safe }}\n  <c/>\n  </a>", tmp_path, "a.xml")
     assert found.span
     assert (found.span.line, found.span.column, found.span.text) == (4, 3, "</a>")
@@ -333,7 +333,7 @@ def test_what_is_no_xml_is_told_at_the_line_where_the_template_has_it(tmp_path: 
     assert found.span.line == 1
 
 
-def test_urdf_that_is_no_xml_is_told_at_the_template_that_goes_before_ours(tmp_path: Path):
+def test_urdf_that_is_not_xml_is_reported_at_the_replacing_template(tmp_path: Path):
     write(tmp_path, urdf__joint_xml="<joint>")
     with pytest.raises(TemplateError) as refused:
         render_urdf(ARM, templates=tmp_path)
@@ -349,7 +349,7 @@ def test_urdf_that_is_no_xml_is_told_at_the_template_that_goes_before_ours(tmp_p
         "{{ urdf.joints[0].elements }}",
     ],
 )
-def test_what_a_view_says_of_other_elements_is_told_where_there_are_none(text: str, tmp_path: Path):
+def test_an_addition_to_a_missing_element_is_reported(text: str, tmp_path: Path):
     robot = compile_text(
         "linkforge: 1\nname: a\nlinks: {b: , c: }\njoints: {j: {type: fixed, parent: b, child: c, "
         "extra_inside: {parent: {extra_attributes: {x: '1'}}}}}\n"
@@ -447,11 +447,11 @@ BLOCK = "{% set y %}{{ n.x }}{{ n.x }}{% endset %}{% set n.x = y %}"
         ("{{ lipsum(10**9) }}", "this template uses an undefined name: 'lipsum' is not defined"),
     ],
 )
-def test_what_takes_too_much_is_refused(text: str, message: str, tmp_path: Path):
+def test_what_exceeds_a_limit_is_refused(text: str, message: str, tmp_path: Path):
     assert fault(text, tmp_path).message.startswith(message)
 
 
-def test_templates_behind_the_one_that_takes_too_much_are_not_blamed(tmp_path: Path):
+def test_templates_after_one_that_exceeds_the_limit_are_not_reported(tmp_path: Path):
     write(tmp_path, a_md="right", b_md="\n{{ 'x' * 10**10 }}", c_md="right", d_md="{{ nosuch }}")
     with pytest.raises(TemplateError) as refused:
         render_templates(ARM, tmp_path)
@@ -508,7 +508,7 @@ def test_a_link_that_leads_out_is_followed_where_the_user_allows_it(tmp_path: Pa
     ],
     ids=["not UTF-8", "control character", "large"],
 )
-def test_a_template_without_a_text_is_told_at_its_file(
+def test_an_unreadable_template_is_reported_at_its_file(
     name: str, content: bytes, place: str, reason: str, tmp_path: Path
 ):
     path = tmp_path / f"{name}.j2"
@@ -522,7 +522,7 @@ def test_a_template_without_a_text_is_told_at_its_file(
 
 
 @pytest.mark.parametrize("text", ["right", "{% include 'b.md.j2' %}"])
-def test_a_broken_link_is_told_at_itself(text: str, tmp_path: Path):
+def test_a_broken_link_is_reported_at_the_link(text: str, tmp_path: Path):
     (tmp_path / "a.md.j2").write_text(text)
     (tmp_path / "b.md.j2").symlink_to(tmp_path / "nosuch")
     with pytest.raises(TemplateError) as refused:
@@ -536,7 +536,7 @@ def test_a_broken_link_is_told_at_itself(text: str, tmp_path: Path):
     assert notes == ([tmp_path / "a.md.j2"] if text != "right" else [])
 
 
-def test_a_link_that_leads_out_of_the_folder_is_told_at_itself_where_no_template_of_the_folder_includes_it(
+def test_an_unused_link_out_of_the_template_folder_is_reported_at_the_link(
     tmp_path: Path,
 ):
     folder = tmp_path / "t"

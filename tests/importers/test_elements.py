@@ -7,19 +7,23 @@ from typing import Annotated, ClassVar
 
 import pytest
 
-from linkforge_compile.core.fields import Children, Choice, Flag, Number, Parameters, Reference, Spec, Text, Vector
-from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.models.joint import JointDynamics
+from linkforge_compile.core.fields import Choice, Flag, Number, Reference, Text, Vector, _describe
+from linkforge_compile.core.models.geometry import Box, Material, Vector3
+from linkforge_compile.core.models.joint import Joint, JointDynamics
+from linkforge_compile.core.models.link import Inertial, InertiaTensor, Visual
+from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint, Ros2ControlSensor
+from linkforge_compile.core.models.transmission import Transmission, TransmissionJoint
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.elements import read_element
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft
+from linkforge_compile.importers.urdf import read_urdf
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.lower.elements import lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax import YamlMap
+from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import LENGTH
 
 ORIGIN = Vector3(0.0, 0.0, 0.0)
@@ -80,22 +84,79 @@ def test_a_value_of_another_kind_cannot_be_represented(attribute: str):
         read_element(reader_of(f"<dynamics {attribute}/>"), Friction)
 
 
+def test_texts_and_children_are_read():
+    """In a transmission, a number of another spelling stays as it is written."""
+    xml = """<transmission name="t"><type>my/Gear</type>
+      <joint name="j"><hardwareInterface>effort</hardwareInterface><mechanicalReduction>50</mechanicalReduction></joint>
+      <actuator name="m"><mechanicalReduction>1.50</mechanicalReduction></actuator><ratio>2</ratio></transmission>"""
+    spec = read_element(reader_of(xml), Transmission)
+    joints, actuators = spec.get("joints"), spec.get("actuators")
+    assert {entry.name for entry in spec} >= {"type", "parameters"}
+    assert joints.child("j").child("hardware_interfaces").items[0].text == "effort"
+    assert joints.child("j").child("mechanical_reduction").text == "50"
+    assert actuators.child("m").child("extra").text == "<mechanicalReduction>1.50</mechanicalReduction>"
+
+
 @pytest.mark.parametrize(
-    ("annotation", "spec"),
+    ("kind", "place"),
     [
-        (Sequence[JointDynamics], Children()),
-        (dict[str, str], Parameters()),
-        (str, Text(xml="note/text()")),
-        (Sequence[str], Text()),
+        (Inertial, "links/base/inertial"),
+        (InertiaTensor, "links/base/inertial/inertia"),
+        (Visual, "links/base/visual"),
+        (Box, "links/base/visual/box"),
+        (Material, "materials/red"),
+        (Joint, "joints/j"),
+        (Transmission, "transmissions/t"),
+        (TransmissionJoint, "transmissions/t/joints/j"),
+        (Ros2Control, "ros2_control/hand"),
+        (Ros2ControlJoint, "ros2_control/hand/joints/j"),
+        (Ros2ControlSensor, "ros2_control/hand/sensors/s"),
     ],
 )
-def test_a_kind_of_field_without_a_reader_is_refused(annotation: type, spec: Spec):
+def test_a_new_attribute_is_one_line_in_its_class(kind: type[Element], place: str, monkeypatch: pytest.MonkeyPatch):
+    """Its key becomes that of the class, where raw XML would keep it in `extra_attributes`."""
+    monkeypatch.setitem(kind.__annotations__, "grade", Annotated[str | None, Text(xml="@grade")])
+    _describe.cache_clear()
+    try:
+        imported = read_urdf(SourceFile("r.urdf", ROBOT), Diagnostics())
+    finally:
+        monkeypatch.undo()
+        _describe.cache_clear()
+    assert imported is not None
+    node: YamlNode | None = imported.tree
+    for key in place.split("/"):
+        assert node is not None
+        node = node.child(key)
+    assert isinstance(node, YamlMap)
+    assert node.get("grade") is not None
+    assert node.get("extra_attributes") is None
+
+
+ROBOT = """<robot name="r">
+<material name="red" grade="a"><color rgba="1 0 0 1"/></material>
+<link name="base">
+  <inertial grade="a"><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1" grade="a"/></inertial>
+  <visual grade="a"><geometry><box size="1 1 1" grade="a"/></geometry><material name="red"/></visual>
+</link>
+<link name="tip"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+<joint name="j" type="continuous" grade="a"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+<transmission name="t" grade="a"><type>my/Gear</type>
+  <joint name="j" grade="a"><hardwareInterface>effort</hardwareInterface></joint><actuator name="m"/></transmission>
+<ros2_control name="hand" type="system" grade="a">
+  <hardware><plugin>my/Hand</plugin></hardware>
+  <joint name="j" grade="a"><state_interface name="position"/></joint>
+  <sensor name="s" grade="a"><state_interface name="force"/></sensor>
+</ros2_control>
+</robot>"""
+
+
+def test_a_kind_of_field_without_a_reader_is_refused():
     @dataclass(frozen=True, slots=True)
     class Unreadable(Element):
         TAG: ClassVar[str] = "unreadable"
 
         field: object = None
 
-    Unreadable.__annotations__["field"] = Annotated[annotation, spec]
+    Unreadable.__annotations__["field"] = Annotated[Sequence[str], Text()]
     with pytest.raises(TypeError, match="needs a reader of its own"):
         read_element(reader_of("<unreadable/>"), Unreadable)

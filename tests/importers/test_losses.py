@@ -80,7 +80,7 @@ def test_another_spelling_is_no_loss(before: str, after: str):
          "7:3: warning: the spec adds <inertial>, which is not in this file [LF8192]"),
     ],
 )  # fmt: skip
-def test_a_difference_is_told_at_its_place(before: str, after: str, loss: str):
+def test_a_difference_is_reported_at_its_place(before: str, after: str, loss: str):
     assert f"r.urdf:{loss}" in told(before, after)
 
 
@@ -113,7 +113,7 @@ def test_an_order_is_a_loss_where_mujoco_shows_another_color(was: str, now: str,
     assert [f"{start.line}:{start.column} {code}" for start, code in found] == told
 
 
-def test_a_color_that_changes_with_what_stays_raw_is_told():
+def test_a_color_changed_by_raw_xml_is_reported():
     """The tags of these shapes come out in the order in which they stood."""
     raw = f"<visual>{BALL.replace('/></', '/>raw</')}</visual>"
     green = PAINTED.replace("0.5 0 0", "0 1 0")
@@ -121,7 +121,7 @@ def test_a_color_that_changes_with_what_stays_raw_is_told():
     assert "LF8140" in {loss.code.id for loss in import_urdf("r.urdf", text=text).losses}
 
 
-def test_a_turn_of_zero_beside_a_quaternion_is_a_loss():
+def test_a_zero_rpy_with_a_quaternion_is_a_loss():
     """urdfdom refuses an origin that says both."""
     origin = '<origin xyz="0 0 0.5"/>'
     turned = ROBOT.replace(origin, '<origin xyz="0 0 0.5" quat_xyzw="0 0 0 1"/>')
@@ -213,7 +213,7 @@ def test_an_srdf_is_compared_as_well(monkeypatch: pytest.MonkeyPatch, tmp_path: 
         '<link name="a"/><gazebo reference="a"><big>1e400</big></gazebo>',
     ],
 )
-def test_what_was_once_lost_is_kept_or_told(tmp_path: Path, part: str):
+def test_former_losses_are_kept_or_reported(tmp_path: Path, part: str):
     urdf = tmp_path / "r.urdf"
     urdf.write_text(f'<robot name="r">{part}</robot>', "utf-8")
     read = import_urdf(urdf)
@@ -296,7 +296,7 @@ def damage(robot: etree._Element, chance: random.Random) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_whatever_is_done_to_a_urdf_what_comes_out_is_the_same_or_told(seed: int, shared: Path, tmp_path: Path):
+def test_a_mutated_urdf_comes_out_the_same_or_is_reported(seed: int, shared: Path, tmp_path: Path):
     """An independent judge finds no loss where the import tells none."""
     judge = runpy.run_path(str(shared / "tools" / "urdf_equiv.py"))["semantic"]
     chance, urdf = random.Random(seed), tmp_path / "r.urdf"

@@ -117,7 +117,7 @@ def test_a_state_is_in_the_units_of_its_joints(read):
     )
 
 
-def test_a_position_with_more_to_say_stays_raw_and_is_said_once(tmp_path: Path):
+def test_a_position_with_raw_parts_stays_raw_and_is_written_once(tmp_path: Path):
     whole = imported(
         tmp_path,
         """<robot name="r"><group name="g"><joint name="turn"/></group>
@@ -127,7 +127,7 @@ def test_a_position_with_more_to_say_stays_raw_and_is_said_once(tmp_path: Path):
     assert render_srdf(compile_text(whole.text).result()).count('<joint name="turn" value=') == 1
 
 
-def test_a_group_that_goes_takes_along_those_that_hold_nothing_else(tmp_path: Path):
+def test_a_removed_group_removes_those_that_contain_nothing_else(tmp_path: Path):
     chain = "".join(f'<group name="g{n}"><group name="g{n + 1}"/></group>' for n in range(60))
     tip = '<group name="hand"><link name="tip"/><group name="g0"/></group>'
     whole = imported(tmp_path, f'<robot name="r">{tip}{chain}</robot>')
@@ -230,7 +230,7 @@ def test_what_is_no_srdf_is_refused(tmp_path: Path, srdf: str):
     assert [one.span.file.name for one in whole.diagnostics if one.span] == [str(tmp_path / "r.srdf")]
 
 
-def test_a_missing_srdf_is_told(tmp_path: Path):
+def test_a_missing_srdf_is_reported(tmp_path: Path):
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{TREE}</robot>', "utf-8")
     assert import_urdf(tmp_path / "r.urdf", srdf=tmp_path / "none.srdf").text is None
 

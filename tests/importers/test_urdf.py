@@ -150,7 +150,7 @@ def test_unknown_attributes_and_elements_stay_where_they_were(read):
             extra_attributes: {type: hand}""")
 
 
-def test_equal_shapes_are_said_once(read):
+def test_equal_shapes_are_written_once(read):
     shape = '<origin xyz="0 0 {z}"/><geometry><cylinder radius="0.1" length="1"/></geometry>'
     text = read(f"""
       <link name="a"><visual>{shape.format(z="0.5")}</visual><collision>{shape.format(z="0.50")}</collision></link>
@@ -190,7 +190,7 @@ def test_shapes_that_are_mixed_stay_so(read, tags: str, said: str):
         ("0 0 1.0 1", "red: {color: [0, 0, 1]}"),
     ],
 )
-def test_a_material_behind_another_color_of_its_name_stays_there(read, painted: str, said: str):
+def test_a_material_after_another_color_of_its_name_keeps_its_place(read, painted: str, said: str):
     """MuJoCo takes the first color of a name, and urdfdom the robot's own, so neither may become the other."""
     seen = shown(f'<material name="red"><color rgba="{painted}"/></material>') + shown('<material name="red"/>')
     text = read(f'<link name="a">{seen}</link><material name="red"><color rgba="0 0 1 1"/></material>')
@@ -211,7 +211,7 @@ def shown(material: str) -> str:
     return f'<visual><geometry><sphere radius="1"/></geometry>{material}</visual>'
 
 
-def test_materials_are_said_once_wherever_they_are_declared(read):
+def test_materials_are_written_once_wherever_they_are_declared(read):
     green = '<material name="green"><color rgba="0 1 0 1"/></material>'
     text = read(f"""
       <material name="red"><color rgba="1 0 0 0.5"/></material>
@@ -317,7 +317,7 @@ def test_comments_stand_where_they_stood(tmp_path: Path):
         """)
 
 
-def test_a_comment_at_the_end_of_a_line_is_about_what_stands_on_it(read):
+def test_a_comment_at_the_end_of_a_line_applies_to_that_line(read):
     text = read("""
       <link name="a"> <!-- the base -->
         <visual>
@@ -406,7 +406,7 @@ def test_a_number_comes_back_to_the_same_double(read, written: str, out: str):
     assert float(xyz.split('"')[1].split()[0]) == float(written) == float(out)
 
 
-def test_gazebo_blocks_stand_beside_what_they_are_about(read):
+def test_gazebo_blocks_follow_their_links_and_joints(read):
     text = read("""<link name="a"/>
       <gazebo><static>true</static></gazebo>
       <gazebo reference="a"><mu1>0.20</mu1><mu2>2e-1</mu2><material>Gazebo/Red</material>
@@ -480,7 +480,7 @@ def test_a_transmission_without_interfaces_has_none(read):
     assert "hardwareInterface" not in compiled(f"linkforge: 1\nname: r\n{text}")
 
 
-def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp_path: Path):
+def test_raw_elements_keep_comments_and_report_instructions(tmp_path: Path):
     comment = "<!-- one\n       two <?x y?> -->"
     told = imported_from(
         f"<link name='a'/>\n    <mine>\n        {comment}\n        <?sort by name?><a/>\n    </mine>", tmp_path
@@ -491,14 +491,14 @@ def test_what_is_kept_raw_keeps_its_comments_and_is_told_of_its_instructions(tmp
     assert raw == f"<mine>\n    {comment}\n    <a/>\n</mine>"
 
 
-def test_what_is_kept_raw_for_one_reason_is_told_once_with_how_often(tmp_path: Path):
+def test_elements_kept_raw_for_one_reason_are_reported_once_with_a_count(tmp_path: Path):
     told = imported_from("<link name='a'/>" + "\n<transmission/>" * 9, tmp_path)
     [one] = told.diagnostics
     assert one.message == "<transmission> is kept as raw XML: it has no 'name'"
     assert [(note.message, note.span.line) for note in one.notes] == [("and 8 more like this, the next one here", 3)]
 
 
-def test_what_no_key_says_of_an_element_inside_stands_beside_what_keys_say(read):
+def test_extra_content_of_an_inner_element_joins_that_of_its_keys(read):
     shape = '<geometry by="me"><box size="1 1 1" unit="m"/></geometry>'
     text = read(f"""
       <material name="red"><color rgba="1 0 0 1" space="srgb"/></material>
@@ -519,12 +519,9 @@ def test_what_no_key_says_of_an_element_inside_stands_beside_what_keys_say(read)
         links:
           a:
             visual:
-              box: [1, 1, 1]
+              box: {size: [1, 1, 1], extra_attributes: {unit: m}}
               material: red
-              extra_inside:
-                geometry:
-                  extra_attributes: {by: me}
-                  extra_inside: {box: {extra_attributes: {unit: m}}}
+              extra_inside: {geometry: {extra_attributes: {by: me}}}
             inertial:
               mass: 1
               inertia: {ixx: 1, iyy: 1, izz: 1}
@@ -624,7 +621,7 @@ def test_a_quaternion_turns_where_a_capsule_makes_it_urdf_1_1(tmp_path: Path):
     assert origin in document
 
 
-def test_signs_of_zero_and_spaces_of_generators_stay_behind(read):
+def test_signs_of_zero_and_extra_spaces_are_dropped(read):
     text = read("""<link name="a"/> <link name="b"/>
       <joint name="j" type="fixed"><parent link="a"/><child link="b"/><axis xyz="0 0 -0" />
         <origin xyz="1 -0.0 0" rpy="0 0 0"/><note say="a /> b" /><note say='"' b="c />" d='"'/></joint>""")
@@ -645,7 +642,7 @@ def test_a_file_that_holds_just_what_it_may_is_compared_with_more_than_that(monk
 
 
 @pytest.mark.parametrize("limit", [Limit.VALUES, Limit.ENTRIES])
-def test_a_robot_that_no_spec_may_hold_is_told_at_its_place(limit: Limit, monkeypatch: pytest.MonkeyPatch):
+def test_a_robot_that_no_spec_can_hold_is_reported_at_its_place(limit: Limit, monkeypatch: pytest.MonkeyPatch):
     class Spent(Budget):
         def __init__(self) -> None:
             super().__init__()
@@ -672,7 +669,7 @@ def _leaving(left: int, limit: Limit) -> type[Budget]:
 
 
 @pytest.mark.parametrize(("limit", "module", "line"), [(Limit.VALUES, "spec_draft", 12), (Limit.ENTRIES, "urdf", 12)])
-def test_what_cannot_but_be_too_much_is_told_where_it_gets_there(
+def test_a_certain_excess_is_reported_where_the_limit_is_reached(
     limit: Limit, module: str, line: int, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(f"linkforge_compile.importers.{module}.Budget", _leaving(10, limit))

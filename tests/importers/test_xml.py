@@ -56,7 +56,7 @@ def elements(element: XmlElement):
         ("<a>\n <b c='d\n", (2, 2), "this tag is not closed"),
     ],
 )
-def test_what_is_no_xml_is_told_where_that_is_certain(text: str, place: tuple[int, int], problem: str):
+def test_malformed_xml_is_reported_where_its_place_is_certain(text: str, place: tuple[int, int], problem: str):
     sink = Diagnostics()
     assert read_xml(SourceFile("robot.urdf", text), sink) is None
     [told] = sink
@@ -153,7 +153,7 @@ def test_a_declaration_may_be_late_and_of_any_version(start: str):
         ('<?xml version="1.0" encoding="gb2312"?><robot name="机"/>'.encode("gb2312"), "机"),
     ],
 )
-def test_a_file_is_read_in_the_encoding_that_it_says(data: bytes, name: str):
+def test_a_file_is_read_in_its_declared_encoding(data: bytes, name: str):
     assert document(xml_text(data)).root.get("name") == name
 
 
@@ -177,7 +177,7 @@ def test_depth_is_bounded():
     assert codes("<a>" * (MAX_NESTED_ELEMENTS + 1) + "</a>" * (MAX_NESTED_ELEMENTS + 1)) == ["LF8003"]
 
 
-def test_of_a_bound_and_what_is_malformed_the_first_is_told():
+def test_of_a_limit_and_malformed_xml_the_first_is_reported():
     assert codes("<a>" * (MAX_NESTED_ELEMENTS + 1) + "<b c=1>") == ["LF8003"]
     assert codes("<b c=1>" + "<a>" * (MAX_NESTED_ELEMENTS + 1)) == ["LF8001"]
     assert codes("<a><?b c?><d></a><?b c?>") == ["LF8102", "LF8001"]
@@ -211,7 +211,7 @@ def test_what_one_element_holds_is_bounded(monkeypatch: pytest.MonkeyPatch, one_
     assert codes(f"<a><b/><!-- c --><b/>{one_more}</a>") == ["LF8098"]
 
 
-def test_comments_beside_the_robot_are_bounded(monkeypatch: pytest.MonkeyPatch):
+def test_comments_outside_of_the_robot_are_bounded(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(reader, "MOST_INSIDE", 3)
     assert codes("<!-- 1 --><!-- 2 --><!-- 3 --><a/>") == ["LF8098"]
 

@@ -32,7 +32,7 @@ def test_a_module_hangs_on_its_parent_by_a_fixed_joint_of_its_name():
     assert robot.link("left_palm").visuals[0].material.name == "left_skin"
 
 
-def test_the_joint_of_a_module_takes_any_field_of_a_joint():
+def test_the_joint_of_a_module_accepts_any_field_of_a_joint():
     robot = robot_of(
         Spec(
             """
@@ -116,7 +116,7 @@ def test_equal_materials_may_share_a_name():
     assert list(robot_of(spec).materials) == ["skin"]
 
 
-def test_a_module_that_repeats_names_is_told_and_checked_alone():
+def test_a_module_with_duplicate_names_is_reported_and_checked_alone():
     result = lowered(
         Spec(
             """
@@ -148,7 +148,7 @@ def test_a_module_that_repeats_names_is_told_and_checked_alone():
     assert "left_joint" in result.unresolved
 
 
-def test_modules_of_one_prefix_are_told_at_the_second_whatever_they_share():
+def test_modules_of_one_prefix_are_reported_at_the_second():
     blue, red = (
         Spec(f"links: {{{part}: }}\nmaterials: {{skin: {{color: {color}}}}}")
         for part, color in (("palm", "[0, 0, 1]"), ("wrist", "[1, 0, 0]"))
@@ -218,7 +218,7 @@ def test_a_parent_that_is_not_there_is_left_to_the_check_of_joints():
     assert robot.joint("left_joint").parent == "torsoo"
 
 
-def test_a_prefix_that_no_name_may_begin_with_is_told_at_the_prefix():
+def test_an_invalid_prefix_is_reported_at_the_prefix():
     result = lowered(
         Spec(
             """

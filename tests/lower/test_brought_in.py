@@ -30,7 +30,7 @@ joints:
         (10, "two: {mimic: {joint: *name},", "LF4103", [("10:17", "")]),
     ],
 )
-def test_what_is_brought_in_is_told_with_its_use(line: int, used: str, code: str, notes: list[tuple[str, str]]):
+def test_an_aliased_value_is_shown_with_its_use(line: int, used: str, code: str, notes: list[tuple[str, str]]):
     lines = SPEC.splitlines()
     lines[line - 1] = lines[line - 1].replace("links: {a: ,", used).replace("two: {", used + " ")
     told = [one for one in compile_text("\n".join(lines), name="r").diagnostics if one.code.id == code]

@@ -41,7 +41,7 @@ def test_raw_xml_is_text():
     """)
 
 
-def test_what_is_inside_is_said_by_its_tag_and_name():
+def test_an_inner_element_is_named_by_its_tag_and_name():
     robot = robot_of("""
         name: cart
         links:

@@ -38,7 +38,7 @@ def test_what_is_absent_or_null_is_read_as_none_in_silence():
     assert told(fields) == []
 
 
-def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write():
+def test_a_missing_required_field_is_reported_at_the_object_with_a_remedy():
     fields = fields_of("limits: {lower: 0}")
     assert fields.text("parent", required="base") is None
     limits = fields.map("limits")
@@ -50,7 +50,7 @@ def test_what_is_required_and_missing_is_told_at_the_object_with_what_to_write()
     ]
 
 
-def test_a_fault_that_has_been_told_is_none_in_silence_wherever_it_is_read():
+def test_a_reported_fault_has_no_value_and_is_not_reported_again():
     span = SourceFile("spec.yaml", "a: b").whole
     entry = YamlEntry(YamlScalar("x", "x", span), YamlFault(span))
     fields = Fields(YamlMap({"x": entry}, span), "link 'a'", Diagnostics())
@@ -69,7 +69,7 @@ def test_a_whole_number_is_an_integer(text, number):
     assert fields_of(f"samples: {text}").integer("samples") == number
 
 
-def test_half_a_sample_is_told():
+def test_half_a_sample_is_reported():
     fields = fields_of("samples: 2.5")
     assert fields.integer("samples") is None
     assert told(fields) == ["spec.yaml:1:10: error: samples takes a whole number, found 2.5 [LF5001]"]
@@ -100,7 +100,7 @@ def test_a_word_is_one_of_its_enumeration():
     ]
 
 
-def test_a_name_with_a_space_is_told_at_the_name():
+def test_a_name_with_a_space_is_reported_at_the_name():
     fields = fields_of("joint: left mount")
     assert fields.name("joint", "joint") is None
     assert told(fields) == [
@@ -115,7 +115,7 @@ def test_an_origin_is_three_lengths_or_a_map_of_xyz_and_rpy():
     assert (turned.xyz, turned.rpy.z) == (zero, pytest.approx(6.283185307))
 
 
-def test_each_number_of_a_vector_is_told_at_its_place():
+def test_each_number_of_a_vector_is_reported_at_its_place():
     fields = fields_of("box: [1, 2 kg, 0]")
     assert fields.vector3("box", EXTENT) is None
     assert told(fields) == [
@@ -124,7 +124,7 @@ def test_each_number_of_a_vector_is_told_at_its_place():
     ]
 
 
-def test_the_field_is_shown_whose_value_an_alias_says():
+def test_the_field_with_the_value_of_an_alias_is_shown():
     fields = fields_of("x-size: &size [1, 2 kg, 3]\nbox: *size\norigin: [1, 2 kg, 3]\n")
     assert fields.vector3("box", EXTENT) is None
     assert fields.vector3("origin", EXTENT) is None
@@ -140,7 +140,7 @@ def test_an_entry_without_a_value_is_an_empty_object_at_its_name():
     assert told(fields) == ["spec.yaml:1:22: error: link 'arm' takes a map, found 3 [LF5001]"]
 
 
-def test_what_a_constructor_refuses_is_told_at_the_field_it_names():
+def test_what_a_constructor_refuses_is_reported_at_its_field():
     fields = fields_of("size: [1, 0, 1]")
     size = fields.map_at(fields.node, "box")
     assert size is not None

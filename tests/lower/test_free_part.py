@@ -49,7 +49,7 @@ def test_nothing_written_inside_is_left_out_as_well():
     assert parameters("{a: , b: [1, ''], c: {}}") == {"x": {"b": ("1", ""), "c": {}}}
 
 
-def test_an_attribute_takes_text():
+def test_an_attribute_holds_text():
     assert parameters(
         "{_type: [a, b], c: 1}   # E[LF5001]:20 _type takes text, found a list",
     ) == {"x": {"c": "1"}}

@@ -19,7 +19,7 @@ def references(robot: Robot) -> list[str | None]:
     return [block.reference for block in robot.gazebo_elements]
 
 
-def test_a_block_is_about_the_entry_that_it_stands_in():
+def test_a_block_refers_to_the_entry_that_contains_it():
     robot = robot_of("""
         name: arm
         gazebo: {static: true}

@@ -44,7 +44,7 @@ def test_a_revolute_joint_with_every_field():
     )
 
 
-def test_a_prismatic_joint_takes_lengths_forces_and_velocities():
+def test_a_prismatic_joint_has_lengths_forces_and_velocities():
     joint = joint_of("type: prismatic, axis: x, limits: {upper: 40 mm, effort: 2 kN, velocity: 10 cm/s}")
     assert joint.limits == JointLimits(None, 0.04, 2000, 0.1)
 

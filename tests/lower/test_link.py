@@ -29,7 +29,7 @@ from tests.lower.specs import Spec, lowered, robot_of
         ("mesh: {file: a.stl, scale: [1, -1, 1]}", Mesh("a.stl", Vector3(1, -1, 1))),
     ],
 )
-def test_a_shape_is_told_by_its_key(shape, geometry):
+def test_the_key_of_a_shape_gives_its_geometry(shape, geometry):
     link = robot_of(f"name: arm\nlinks: {{base: {{collision: {{{shape}}}}}}}").link("base")
     assert [collision.geometry for collision in link.collisions] == [geometry]
 
@@ -71,14 +71,14 @@ def test_collision_visual_copies_shapes_and_places_but_not_names():
         ("visual: BALLS, collision: visual, shape_order: [collision, visual, visual, collision]", "CVVC"),
     ],
 )
-def test_shapes_stand_in_the_order_of_their_keys_or_as_it_is_said(keys: str, order: str):
+def test_shapes_are_in_the_order_of_their_keys_or_of_shape_order(keys: str, order: str):
     said = keys.replace("BALLS", "[{sphere: 1}, {sphere: 2}]").replace("BALL", "{sphere: 3}")
     link = robot_of(f"name: arm\nlinks: {{base: {{{said}}}}}").link("base")
     assert "".join(type(shape).__name__[0] for shape in link.shapes) == order
     assert [shape for shape in link.shapes if isinstance(shape, Visual)] == list(link.visuals)
 
 
-def test_a_visual_takes_a_material_of_the_file_or_one_in_place():
+def test_a_visual_has_a_material_of_the_file_or_an_inline_one():
     robot = robot_of(
         """
         name: arm

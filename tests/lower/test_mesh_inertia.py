@@ -62,7 +62,7 @@ def test_a_mesh_is_scaled_to_metres(tmp_path):
     assert messages(compilation) == []
 
 
-def test_a_mesh_is_found_where_the_file_that_wrote_it_says(tmp_path):
+def test_a_mesh_path_starts_at_the_file_that_wrote_it(tmp_path):
     parts = {"hand": "meshes/cube.stl", "foot": "package://feet/cube.stl", "head": "package://heads/cube.stl"}
     for folder in ("hand/meshes", "feet", "skulls"):
         save(CUBE, tmp_path / folder / "cube.stl")
@@ -125,7 +125,7 @@ def test_no_mesh_is_read_where_nothing_is_computed_from_it(tmp_path):
     assert compile_file(spec(tmp_path, pretty)).result()
 
 
-def test_without_trimesh_it_is_told_once_what_to_install(tmp_path, monkeypatch):
+def test_without_trimesh_the_package_to_install_is_reported_once(tmp_path, monkeypatch):
     save(CUBE, tmp_path / "cube.stl")
     path = spec(tmp_path, link("[{mesh: cube.stl}, {mesh: {file: cube.stl, scale: 2}}]"))
     for name in [name for name in sys.modules if name.startswith("linkforge_compile.core.meshes.c")]:
@@ -169,7 +169,7 @@ def test_a_fault_of_a_mesh_says_what_it_is_needed_for_and_who_uses_the_file(tmp_
     assert [note.message for note in fault.notes] == ["its inertia is needed here", "used here"]
 
 
-def test_every_faulty_mesh_of_a_link_is_told(tmp_path):
+def test_every_faulty_mesh_of_a_link_is_reported(tmp_path):
     save(together(CUBE, turned_inside_out(block(1, 1, 1, at=(9, 0, 0)))), tmp_path / "two.stl")
     told = messages(compile_file(spec(tmp_path, link("[{mesh: two.stl}, {mesh: lost.stl}, {sphere: 1}]"))))
     assert [message.partition(":")[0] for message in told] == ["LF6018", "LF6011"]

@@ -83,7 +83,7 @@ def test_its_parent_is_found_where_its_module_is_used(tmp_path):
         ("joint: hip", ["LF5301"]),
     ],
 )
-def test_whoever_names_it_is_not_blamed_for_what_is_wrong_with_its_robot(tmp_path, leg, told):
+def test_an_error_in_a_robot_is_not_reported_at_references_to_it(tmp_path, leg, told):
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     right = "right: {use: leg.robot.yaml, parent: trunk}"
     text = f"linkforge: 1\nname: w\nlinks: {{trunk: }}\nmodules: {{{right}, left: {{use: leg.robot.yaml, {leg}}}}}"
@@ -91,14 +91,14 @@ def test_whoever_names_it_is_not_blamed_for_what_is_wrong_with_its_robot(tmp_pat
     assert [one.code.id for one in compiled.diagnostics if one.severity is Severity.ERROR] == told
 
 
-def test_a_module_that_lacks_only_its_parent_is_told_by_the_links_that_someone_wrote(tmp_path):
+def test_a_module_without_parent_is_reported_with_its_written_links(tmp_path):
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     text = "linkforge: 1\nname: w\nlinks: {trunk: }\nmodules: {left: {use: leg.robot.yaml}}"
     (told,) = [one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR]
     assert told.startswith("the robot has 2 roots, 'trunk' and 'left_hip'")
 
 
-def test_one_that_hangs_is_no_link_to_whoever_takes_it_for_one(tmp_path):
+def test_a_mount_joint_is_not_a_link(tmp_path):
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     joints = "joints: {weld: {type: fixed, parent: left_hip_joint, child: box}}"
     text = f"links: {{trunk: , box: }}\n{joints}\nmodules: {{left: {{use: leg.robot.yaml, parent: trunk}}}}"

@@ -29,7 +29,7 @@ def test_interfaces_are_names_until_one_has_parameters():
     assert joint.state_interfaces == ("position", "1.0")
 
 
-def test_a_block_is_a_system_unless_it_says_otherwise():
+def test_a_block_is_a_system_by_default():
     assert control("joints: {shoulder: {state_interfaces: [position]}}").type == "system"
     assert control("type: sensor, sensors: {tcp: {state_interfaces: [force.x]}}").type == "sensor"
 
@@ -51,7 +51,7 @@ def test_a_transmission_moves_joints_by_actuators():
     assert gears.parameters == {"role": {"_kind": "a", "ratio": "1.0"}}
 
 
-def test_what_a_lost_part_leaves_is_not_told_again():
+def test_a_dropped_part_causes_no_further_report():
     robot = robot_of("""
         name: arm
         links: {base: , upper: }

@@ -57,7 +57,7 @@ def test_an_info_that_says_nothing_is_one():
     assert sensor("type: imu, link: base, imu: {}").imu_info == IMUInfo()
 
 
-def test_a_faulty_sensor_is_told_whole_and_others_may_still_name_it():
+def test_a_faulty_sensor_is_reported_completely_and_its_name_stays_known():
     assert robot_of("""
         name: cart
         links: {base: }
@@ -72,7 +72,7 @@ def test_a_faulty_sensor_is_told_whole_and_others_may_still_name_it():
     """).sensors
 
 
-def test_a_sensor_takes_the_prefix_with_its_frame_and_its_relative_topic():
+def test_a_sensor_its_frame_and_relative_topic_get_the_prefix():
     robot = robot_of(
         Spec(
             """

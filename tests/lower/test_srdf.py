@@ -76,7 +76,7 @@ def test_a_state_gives_positions_by_joint():
     assert states == {"arm/home": {"a": (1,), "rail": (0.02,), "drift": (1, 2, 1)}, "arm/rest": {}}
 
 
-def test_a_state_takes_the_positions_of_the_states_it_names_in_whatever_order():
+def test_a_state_has_the_positions_of_the_states_it_names_in_any_order():
     states = states_of("""
     both: {ready: {arm: up, hand: open, rail: 3}}
     arm: {up: {a: 1}}
@@ -86,7 +86,7 @@ def test_a_state_takes_the_positions_of_the_states_it_names_in_whatever_order():
     assert list(states) == ["both/ready", "arm/up", "hand/open"]
 
 
-def test_a_faulty_state_is_told_once_and_so_are_those_that_use_it():
+def test_a_faulty_state_and_its_users_are_reported_once():
     result = lowered(
         """
         name: arm
@@ -125,5 +125,5 @@ def test_a_faulty_group_is_a_gap():
 
 
 @pytest.mark.parametrize("text", ["", "semantic:"])
-def test_a_robot_that_says_nothing_semantic_has_no_semantic_part(text):
+def test_a_robot_without_semantics_has_no_semantic_part(text):
     assert not robot_of(f"name: arm\n{text}").has_semantic

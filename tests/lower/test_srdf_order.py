@@ -29,7 +29,7 @@ CELL = """
 """
 
 
-def test_a_module_speaks_beside_the_file_that_uses_it_where_both_speak_of_one_name():
+def test_entries_of_a_module_are_next_to_those_of_its_user_for_one_name():
     semantic = robot_of(Spec(CELL, {"left": Spec(ARM)})).semantic
     assert [(state.group, state.name) for state in semantic.group_states] == [
         ("left_all", "up"),

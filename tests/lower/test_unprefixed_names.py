@@ -38,15 +38,15 @@ def told_gripper() -> Spec:
     return Spec(text)
 
 
-def test_names_in_plugins_and_absolute_topics_are_told_under_a_prefix():
+def test_names_in_plugins_and_absolute_topics_are_reported_under_a_prefix():
     robot_of(used(told_gripper()))
 
 
-def test_nothing_is_told_of_the_compiled_file():
+def test_nothing_is_reported_for_the_compiled_file():
     robot_of(GRIPPER)
 
 
-def test_nothing_is_told_where_names_stay():
+def test_nothing_is_reported_if_names_do_not_change():
     spec = used(Spec(GRIPPER), prefix='""')
     spec.text = spec.text.replace("finger", "thumb")
     robot_of(spec)
@@ -69,7 +69,7 @@ def test_names_of_the_files_around_are_no_names_of_the_file():
     robot_of(used(arm))
 
 
-def test_names_in_raw_xml_are_told_wherever_they_stand():
+def test_names_anywhere_in_raw_xml_are_reported():
     unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
     said = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
     for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb", '<a x=">" b="bulb"/>'):
@@ -89,7 +89,7 @@ def test_names_in_raw_xml_are_told_wherever_they_stand():
 @pytest.mark.parametrize(
     "text", ["bulb,shade", "bulb, other", "[bulb]", "['bulb', 'other']", "bulb stand", "[bulb stand]"]
 )
-def test_names_in_a_list_are_told_each(text: str):
+def test_each_name_in_a_list_is_reported(text: str):
     said = " ## ".join(
         f"W[LF5704]:8 '{name}' is a link of this file and takes the prefix, but not here; write '$(link('{name}'))'"
         for name in ("bulb", "stand")

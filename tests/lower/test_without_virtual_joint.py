@@ -29,7 +29,7 @@ def test_all_that_names_a_virtual_joint_goes_with_it():
     )
 
 
-def test_what_goes_and_what_says_less_is_named():
+def test_removed_and_changed_entries_are_named():
     left = without_virtual_joint(WHOLE, "ground")
     assert left.removed == ("group 'stand'", "group 'nested'", "end effector 'floor'", "state 'here'")
     assert left.changed == (

@@ -37,7 +37,7 @@ def test_the_bundle_needs_no_other_file():
     assert {f"#/definitions/{name}" for name in bundle()["definitions"]} >= set(references)
 
 
-def test_the_bundle_is_a_schema_that_takes_a_robot_as_any_tool_reads_it():
+def test_the_bundle_is_a_schema_that_accepts_a_robot_in_any_tool():
     Draft7Validator.check_schema(bundle())
     assert [error.message for error in Draft7Validator(bundle()).iter_errors(SPEC)] == []
 
@@ -88,9 +88,9 @@ def test_what_holds_maps_may_be_left_empty_within_sections_too():
     assert reported(links={"base": empty}, joints={"weld": joint}, semantic={"groups": None}, include=None) == []
 
 
-def test_a_scalar_and_the_items_of_a_list_may_not_be_left_empty():
-    assert reported(description=None) == [["description"]]
-    assert reported(links={"base": {"inertial": {"mass": None}}}) == [["links", "base", "inertial", "mass"]]
+def test_a_required_scalar_and_the_items_of_a_list_may_not_be_left_empty():
+    assert reported(linkforge=None) == [["linkforge"]]
+    assert reported(joints={"weld": {"parent": None}}) == [["joints", "weld", "parent"]]
     assert reported(include=[None]) == [["include", 0]]
 
 

@@ -20,7 +20,7 @@ def faults(spec: dict[str, object]) -> list[str]:
 
 
 @pytest.mark.parametrize("name", OBJECTS)
-def test_every_object_takes_when(name: str):
+def test_every_object_accepts_when(name: str):
     assert "when" in OBJECTS[name]["properties"]
 
 
@@ -48,7 +48,7 @@ def test_no_schema_file_writes_the_words_itself(concept: str):
     ],
     ids=str,
 )
-def test_the_editor_takes_what_the_language_takes(spec: dict[str, object]):
+def test_the_editor_accepts_what_the_language_accepts(spec: dict[str, object]):
     assert faults(spec) == []
 
 

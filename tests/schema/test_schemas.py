@@ -100,7 +100,7 @@ def test_every_word_of_an_enum_is_explained(schema: Schema):
 
 
 @pytest.mark.parametrize(("name", "dimensions"), QUANTITIES.items(), ids=QUANTITIES)
-def test_a_quantity_takes_every_unit_of_its_dimension_and_offers_right_ones(name: str, dimensions: list[Dimension]):
+def test_a_quantity_accepts_all_units_of_its_dimension_and_suggests_valid_ones(name: str, dimensions: list[Dimension]):
     schema = WHOLE[name]
     for dimension in dimensions:
         for unit in units_of(dimension):
@@ -136,7 +136,7 @@ def filled(body: object) -> object:
 
 
 @pytest.mark.parametrize(("schema", "snippet"), [pytest.param(*found, id=path) for path, *found in SNIPPETS])
-def test_a_snippet_writes_what_its_schema_takes(schema: Schema, snippet: Schema):
+def test_a_snippet_is_valid_in_its_schema(schema: Schema, snippet: Schema):
     Draft7Validator({**schema, "definitions": WHOLE}).validate(filled(snippet["body"]))
 
 

@@ -195,7 +195,7 @@ def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_reported():
 
 
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
-def test_a_file_that_says_no_version_is_reported_to_say_it_first(text: str):
+def test_a_missing_version_is_reported_first(text: str):
     _, reported = judged(text)
     assert reported == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
 

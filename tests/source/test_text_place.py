@@ -8,6 +8,6 @@ ROBOT = "linkforge: 1\nname: r\nlinks: {base: }\nextra: |\n\n  <a>\n    <b x='1'
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
-def test_a_line_behind_a_bar_stands_where_it_is_whatever_ends_it(end: str):
+def test_a_line_of_a_block_scalar_keeps_its_place_with_any_line_ending(end: str):
     [fault] = compile_text(ROBOT.replace("\n", end)).diagnostics
     assert str(fault.span) == "<text>:7:14"

@@ -120,7 +120,7 @@ def test_a_word_that_comes_again_is_read_as_it_is_written_there():
     assert [covered(entry.key.span) for entry in tree] == ["a", "a1", "b", "c", "'1'", "1.0"]
 
 
-def test_block_collections_end_with_their_last_value_not_with_the_comments_behind_it():
+def test_block_collections_end_with_their_last_value_before_comments():
     tree = tree_of("a:\n  b: 1   # c\n\n# d\ne: 2")
     inner = tree.get("a")
     assert inner is not None
@@ -254,7 +254,7 @@ def test_what_libyaml_alone_can_name_is_passed_on():
     assert reported[0].startswith("1:1 this is not YAML: found incompatible YAML document")
 
 
-def test_reading_goes_on_behind_a_fault():
+def test_reading_continues_after_a_fault():
     tree, reported = read_text("a: 1\na: 2\nb: !x 3\nc: [*y, 4]\nd: {e: $(f(1, 2)), g: 5}\nh: 6\n")
     assert [line.split()[0] for line in reported] == ["2:1", "3:4", "4:5", "5:8"]
     assert plain(tree) == {"a": "FAULT", "b": "FAULT", "c": ["FAULT", 4], "d": "FAULT", "h": 6}

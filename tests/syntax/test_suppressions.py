@@ -98,4 +98,4 @@ def test_comments_are_counted_by_their_codes_and_end_the_compile_beyond_the_boun
     assert {reported.code.id for reported in few.diagnostics} == {"LF1204"}
     (reported,) = compile_text(spec + "# linkforge: ignore\n# linkforge: ignore\n").diagnostics
     assert (reported.code.id, reported.span and reported.span.line) == ("LF3301", 6)
-    assert "3 codes in comments" in reported.message
+    assert "3 codes in `linkforge: ignore` comments" in reported.message

@@ -119,7 +119,7 @@ def test_short_objects_stand_in_brackets_and_sections_do_not():
     """)
 
 
-def test_what_is_too_wide_or_nests_too_deep_stands_in_lines():
+def test_values_too_wide_or_too_deep_are_written_in_lines():
     wide = {f"field_{number}": number for number in range(12)}
     deep = {"a": {"b": {"c": {"d": 1}}}}
     assert written({"joints": {"elbow": wide, "wrist": deep}, "shapes": [wide, [1, 2]]}) == lines("""
@@ -157,7 +157,7 @@ def test_what_is_too_wide_or_nests_too_deep_stands_in_lines():
     """)
 
 
-def test_text_of_several_lines_stands_as_it_is():
+def test_text_of_several_lines_is_kept_unchanged():
     assert written({"extra": "<a>\n  <b/>\n</a>\n", "doc": ["one\n\ntwo"], "odd": " a\nb"}) == lines("""
         extra: |
           <a>

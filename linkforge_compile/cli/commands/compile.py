@@ -1,4 +1,4 @@
-"""`linkforge compile`: compiles a spec to standard output or to files."""
+"""`linkforge compile`: compiles a spec to standard output or to files, or several specs into a folder."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import UsageError
-from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
+from linkforge_compile.cli.build import Build, BuildRequest, compile_request, render_request
+from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.options import (
     add_spec_and_values,
     add_spec_options,
@@ -14,11 +15,21 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options
-from linkforge_compile.cli.targets import Targets, add_target_options, targets_of, targets_of_documents
+from linkforge_compile.cli.reports import add_report_options, progress
+from linkforge_compile.cli.specs import SpecReport, find_parts, find_specs_of, is_folder
+from linkforge_compile.cli.targets import (
+    Targets,
+    add_target_options,
+    is_folder_of_outputs,
+    targets_of,
+    targets_of_documents,
+)
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET
+from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Collection, Sequence
 
     from linkforge_compile.formats.user_templates import TemplateFolder
 
@@ -30,10 +41,13 @@ examples:
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
+  linkforge compile arm.robot.yaml --variant sim --variant lab -o build/    build/arm_sim.urdf and build/arm_lab.urdf
+  linkforge compile arm.robot.yaml --variant sim+lab    with the values of two variants; the last one decides
   linkforge compile arm.robot.yaml -o build/ --source-map   and the source of each line, in build/arm.urdf.map.json
   linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
   linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
   linkforge compile - < arm.robot.yaml                  from standard input
+  linkforge compile robots/*.robot.yaml -o build/       several specs, or every spec below a folder: robots/ -o build/
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
 --template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, instead of URDF and SRDF. With
@@ -43,7 +57,7 @@ FOLDER/urdf/ and FOLDER/srdf/ replace linkforge's own. docs/templates.md describ
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge compile [options] SPEC [NAME:=VALUE ...]"
+    parser.usage = "linkforge compile [options] SPEC ... [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_build_arguments(parser)
     parser.add_argument(
@@ -75,21 +89,57 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
     )
-    add_spec_options(parser)
+    add_spec_options(
+        parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
+    )
     add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    request = parse_request(arguments)
-    return write_outputs(request, compile_request(request, arguments), arguments)
+    words, assignments = split_assignments(arguments.words)
+    if len(words) == 1 and not is_folder(words[0]) and len(arguments.variants) < 2:
+        request = parse_request(arguments)
+        return deliver([_build(request, arguments)], arguments)
+    found = find_specs_of(_require_specs(words), arguments)
+    requests = _parse_several(found.specs, assignments, arguments)
+    builds = [_build(request, arguments) for request in progress(requests, "compiled", arguments)]
+    parts = _parts_in_folders(builds, found.in_folders)
+    return deliver([build for build in builds if build.spec not in parts], arguments, found.faults)
 
 
 def parse_request(arguments: argparse.Namespace) -> BuildRequest:
-    """Return what to build; UsageError for options that contradict each other."""
+    """Return what to build of one spec; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
+    if len(arguments.variants) > 1:
+        raise UsageError(f"--variant may be given once, found {' and '.join(arguments.variants)}")
+    variant = next(iter(arguments.variants), None)
+    return _parse_request(require_one_spec(specs), variant, assignments, arguments)
+
+
+def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argparse.Namespace) -> list[BuildRequest]:
+    """Return what to build of each spec; UsageError if two would have the same output."""
+    if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
+        found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
+        several = "specs" if len(specs) > 1 else "variants"
+        raise UsageError(f"-o takes one folder for the outputs of several {several}, found {found}")
+    variants = arguments.variants or [None]
+    requests = [_parse_request(spec, variant, assignments, arguments) for spec in specs for variant in variants]
+    names: dict[Path | None, str] = {}
+    for request in requests:
+        name = f"'{request.spec}'" + (f" with variant '{request.variant}'" if request.variant else "")
+        for path in request.targets.paths.values():
+            if path in names:
+                both = f"that of {names[path]} and of {name}"
+                raise UsageError(f"'{path}' would be {both}; rename one, or compile it into another folder")
+            names[path] = name
+    return requests
+
+
+def _parse_request(
+    spec: str, variant: str | None, assignments: list[str], arguments: argparse.Namespace
+) -> BuildRequest:
     templates = None if arguments.template is None else _template_folder(arguments)
-    targets = _targets(spec, templates, arguments)
+    targets = _targets(spec, templates, arguments, variant or "" if len(arguments.variants) > 1 else "")
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:
@@ -100,7 +150,29 @@ def parse_request(arguments: argparse.Namespace) -> BuildRequest:
         targets.require_files("--depfile", "tells what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
-    return BuildRequest(spec, assignments, targets, templates)
+    return BuildRequest(spec, assignments, targets, templates, variant)
+
+
+def _build(request: BuildRequest, arguments: argparse.Namespace) -> Build:
+    return render_request(request, compile_request(request, arguments), arguments)
+
+
+def _require_specs(words: list[str]) -> list[str]:
+    """Return words that may be specs; UsageError for those that are a mistake, or for none."""
+    if not words:
+        raise UsageError("takes one spec or more, found none")
+    if "" in words:
+        raise UsageError("takes specs, found '': is a variable of the shell empty?")
+    # A file may have such a name.
+    if assignment := next((word for word in words if "=" in word and not Path(word).exists()), None):
+        raise UsageError(f"there is no spec '{assignment}'; write '-p {assignment}' to set a parameter")
+    return words
+
+
+def _parts_in_folders(builds: Sequence[Build], in_folders: Collection[str]) -> frozenset[str]:
+    """Return the specs found in folders that are modules of others and cannot be compiled by themselves."""
+    reports = {build.spec: SpecReport(build.diagnostics, build.sources) for build in builds}
+    return find_parts(reports, (MISSING_NAME, PARAMETER_NOT_SET)).intersection(in_folders)
 
 
 def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
@@ -119,9 +191,9 @@ def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
     return templates
 
 
-def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace) -> Targets:
-    if templates is not None and templates.documents and arguments.format is None:
+def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace, variant: str) -> Targets:
+    if templates is not None and templates.documents and not arguments.formats:
         documents = targets_of_documents(templates.documents, arguments.outputs)
         if documents is not None:
             return documents
-    return targets_of(spec, arguments.outputs, arguments.format)
+    return targets_of(spec, arguments.outputs, arguments.formats, variant)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import add_spec_options, compile_spec, require_one_spec, split_assignments
 from linkforge_compile.cli.reports import add_report_options, place_lines, report
-from linkforge_compile.source.provenance import Kind, Provenance
+from linkforge_compile.source.provenance import WORDS, Kind, Provenance
 
 if TYPE_CHECKING:
     import argparse
@@ -170,10 +170,10 @@ def _setting(setting: Setting) -> str:
     """Return what set a name: "the default 0.8 m at arm.robot.yaml:6:11"."""
     from linkforge_compile.expand.listing import as_written
 
-    place = setting.node.span
+    words, place = WORDS[setting.kind].sentence.format(name=setting.name), setting.node.span
+    if setting.kind is Kind.COMMAND_LINE:
+        return words
     if setting.named_by is not None:
-        return f"the content of {place.file.name}, named at {setting.named_by.span}"
-    if setting.by == "the command line":
-        return f"from {setting.by}: {place.file.text}"
+        return f"{words} at {setting.named_by.span}"
     text = as_written(setting.node)
-    return f"{setting.by} {text} at {place}" if text and len(text) <= _LONGEST_TEXT else f"{setting.by} at {place}"
+    return f"{words} {text} at {place}" if text and len(text) <= _LONGEST_TEXT else f"{words} at {place}"

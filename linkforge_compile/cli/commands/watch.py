@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import OK, WRONG_USAGE, UsageError
-from linkforge_compile.cli.build import BuildRequest, compile_request, write_outputs
+from linkforge_compile.cli.build import BuildRequest, compile_request, render_request
 from linkforge_compile.cli.commands import compile as compile_command
+from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.reports import print_failure, print_line, print_status
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
@@ -74,7 +75,7 @@ def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Name
     # Start before rendering, so that a file that changes meanwhile is noticed.
     watcher.track(files, began)
     try:
-        return write_outputs(request, compilation, arguments)
+        return deliver([render_request(request, compilation, arguments)], arguments)
     finally:
         watcher.track((*files, *_templates(request)), began)
 

@@ -136,7 +136,7 @@ class _Element(NamedTuple):
 
 def _elements_of(path: Path, document: str) -> Iterator[_Element]:
     from linkforge_compile.source.malformed_xml import MalformedXmlError
-    from linkforge_compile.source.xml_tree import XmlElement, document_of
+    from linkforge_compile.source.xml_tree import XmlElement, parse_xml
 
     def inside(element: XmlElement, around: tuple[str, ...]) -> Iterator[_Element]:
         if (name := element.get("name")) is not None:
@@ -147,7 +147,7 @@ def _elements_of(path: Path, document: str) -> Iterator[_Element]:
 
     file = SourceFile(str(path), document)
     try:
-        return inside(document_of(file).root, ())
+        return inside(parse_xml(file).root, ())
     except MalformedXmlError as error:
         line = file.between(error.at, error.at).line
         raise UsageError(f"'{path}' is not XML: {error.problem} in line {line}") from None

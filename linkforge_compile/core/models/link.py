@@ -16,7 +16,18 @@ from linkforge_compile.core.constants import (
     MIN_REASONABLE_INERTIA,
 )
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.fields import Child, Children, Flag, Name, Number, Pose, Text, check_numbers, tags_with_text
+from linkforge_compile.core.fields import (
+    NOT_NEGATIVE,
+    Child,
+    Children,
+    Flag,
+    Name,
+    Number,
+    Pose,
+    Text,
+    check_numbers,
+    tags_with_text,
+)
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Transform
 from linkforge_compile.core.naming import require_name, require_valid_characters
 from linkforge_compile.core.part import Element, Part, Stating, attribute_pairs, extras_last, prefixed_fields, set_field
@@ -74,9 +85,9 @@ class Inertial(Element):
 
     TAG = "inertial"
 
-    mass: Annotated[float, Number(MASS, xml="mass/@value")]
+    mass: Annotated[float, Number(MASS, NOT_NEGATIVE, xml="mass/@value", is_required_in_urdf=True)]
     origin: Annotated[Transform, Pose()] = IDENTITY
-    inertia: Annotated[InertiaTensor, Child()] = _STABILITY_FLOOR
+    inertia: Annotated[InertiaTensor, Child(is_required_in_urdf=True)] = _STABILITY_FLOOR
 
     def _check(self) -> None:
         if self.mass < 0:

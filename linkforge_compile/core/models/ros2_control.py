@@ -207,7 +207,7 @@ class Ros2Control(Element):
     TAG = "ros2_control"
 
     name: Annotated[str, Name()]
-    type: Annotated[str, Choice(Ros2ControlType)] = CONTROL_TYPE_SYSTEM
+    type: Annotated[str, Choice(Ros2ControlType, is_required_in_urdf=True)] = CONTROL_TYPE_SYSTEM
     hardware_plugin: Annotated[str, Text(xml="hardware/plugin/text()", example="mock_components/GenericSystem")] = ""
     joints: Annotated[Sequence[Ros2ControlJoint], Children()] = ()
     sensors: Annotated[Sequence[Ros2ControlSensor], Children()] = ()

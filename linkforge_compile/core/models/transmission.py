@@ -32,11 +32,12 @@ class TransmissionType(StrEnum):
     CUSTOM = "custom"
 
 
-_JOINTS_AND_ACTUATORS: dict[str, int] = {
+JOINTS_AND_ACTUATORS: dict[str, int] = {
     TransmissionType.SIMPLE: 1,
     TransmissionType.DIFFERENTIAL: 2,
     TransmissionType.FOUR_BAR_LINKAGE: 2,
 }
+"""The number of joints, and of actuators, by type."""
 
 
 @extras_last
@@ -146,7 +147,7 @@ class Transmission(Element):
         require_unique_names(self.actuators, f"transmission '{self.name}'", "DuplicateActuators", "actuators")
 
     def _check_count(self) -> None:
-        count = _JOINTS_AND_ACTUATORS.get(self.type)
+        count = JOINTS_AND_ACTUATORS.get(self.type)
         if count and (len(self.joints), len(self.actuators)) != (count, count):
             raise RobotValidationError(
                 ValidationErrorCode.INVALID_VALUE,

@@ -31,14 +31,14 @@ NOT_TEXT = Code("LF3131", _E, "{found} cannot be inserted into text")
 
 CIRCULAR_NAMES = Code("LF3141", _E, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", _E, "'{first}' is computed through {count} other names")
-TRUTH_AS_TEXT = Code("LF3143", _E, "'{name}' is text in YAML 1.2, not true or false; write {meant}", _VALUE)
+TRUTH_AS_TEXT = Code("LF3143", _E, "'{name}' is text in YAML 1.2, not true or false; write {expected}", _VALUE)
 WIDE_LITERAL = Code(
     "LF3144",
     _W,
     "{function}() of {found} radians, more than a whole turn; write '{function}(radians({found}))' for degrees",
 )
 
-SEEN_IN_THE_TEXT = (
+WITHOUT_VALUES = (
     *(UNREADABLE_EXPRESSION, UNCLOSED_EXPRESSION, UNCLOSED_TEXT, EMPTY_EXPRESSION, EXPRESSION_TOO_LARGE),
     *(NOT_IN_EXPRESSIONS, UNKNOWN_NAME, UNKNOWN_FUNCTION, FUNCTION_NOT_CALLED, WRONG_ARGUMENT_COUNT),
     *(CIRCULAR_NAMES, CHAIN_TOO_LONG),

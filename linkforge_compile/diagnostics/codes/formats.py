@@ -34,7 +34,7 @@ UNDECLARED_PREFIX = Code(
     in_xml="no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into <robot>",
 )
 
-# LF714x: what stands twice in what is written
+# LF714x: duplicates in the output
 SECOND_OF_ONE = Code(
     "LF7145",
     _W,

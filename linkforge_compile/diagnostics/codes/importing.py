@@ -73,7 +73,7 @@ MESH_BESIDE_THE_URDF = Code(
     "write 'package://NAME/PATH', or the spec into '{back}'",
 )
 
-# LF813x: what is said in addition, and loses nothing
+# LF813x: additional information, without a loss
 VERSION_FOR_CAPSULE = Code(
     "LF8131",
     _N,

@@ -105,10 +105,10 @@ SEVERAL_ROOTS = Code(
 # LF55xx: how far joints go, and joints that follow others
 MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic each other in a circle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
-NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {unsaid}, which URDF reads as 0")
+NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0")
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
-    "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {said}; make it revolute, or leave them out"
+    "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out"
 )
 POWERLESS_JOINT = Code("LF5506", _W, "joint '{joint}' cannot be moved: its limit of {fields} is 0")
 SOFT_LIMITS_CROSSED = Code(
@@ -121,7 +121,7 @@ FAST_JOINT = Code(
     "LF5585",
     _N,
     "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant",
-    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{meant}' if {units} are meant",
+    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{expected}' if {units} are meant",
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
@@ -176,6 +176,9 @@ TAG_OF_TWO_BLOCKS = Code(
 UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
+)
+UNPREFIXED_HARDWARE = Code(
+    "LF5706", _W, "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}"
 )
 UNPREFIXED_TOPICS = Code(
     "LF5754",

@@ -35,7 +35,7 @@ USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {li
 # LF302x: parameters and what sets them
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
 PARAMETER_NOT_SET = Code("LF3021", _E, "{what} no default and must be set; write {remedy}")
-NOT_JUDGED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not checked")
+NOT_CHECKED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not checked")
 PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _DATA)
 PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _VALUE)
 PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _VALUE)
@@ -69,7 +69,7 @@ TEXT_NOT_NUMBER = Code("LF3053", _E, "text with an expression inside is never a 
 # LF306x: include
 INCLUDE_NOT_PLAIN = Code("LF3060", _E, "an include is a path of a file, {reason}; found '{path}'")
 ENTRY_IN_TWO_FILES = Code("LF3061", _E, "{entry} is in two files that 'include' joins; keep it in one of them")
-SAID_BY_MAIN_FILE = Code(
+SET_BY_MAIN_FILE = Code(
     "LF3062", _E, "an included file must not set '{key}'; set it in the file that includes this one"
 )
 INCLUDE_CIRCLE = Code("LF3063", _E, "files include each other in a circle: {path}")
@@ -83,6 +83,9 @@ TAG_NOT_NUMBER = Code("LF3071", _E, "'{tag}' must be followed by a number, found
 
 # LF308x: variants
 UNKNOWN_VARIANT = Code("LF3080", _E, "{spec} has no variant named '{name}'{hint}")
+VARIANTS_DISAGREE = Code(
+    "LF3081", _W, "parameter '{name}' is set by variant '{by}', which replaces what variant '{other}' sets"
+)
 
 # LF309x: what depends on how the file is used
 PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; leave $(prefix) out")

@@ -149,18 +149,18 @@ def reads_quaternions(version: str | None) -> bool:
 
 
 def rpy_beside_quaternion(pose: Transform, version: str | None) -> Vector3 | None:
-    """Return the rpy that an origin states in a document of a version; None where its quaternion says the turn."""
-    said = dict(pose.extra_attributes).get(QUATERNION)
-    if said is None:
+    """Return the rpy that an origin states in a document of a version; None if its quaternion is enough."""
+    quaternion = dict(pose.extra_attributes).get(QUATERNION)
+    if quaternion is None:
         return pose.rpy
-    is_said = pose.rpy == _NO_TURN or (reads_quaternions(version) and _turns_as(said, pose.rpy))
-    return None if is_said else pose.rpy
+    replaces_rpy = pose.rpy == _NO_TURN or (reads_quaternions(version) and _turns_as(quaternion, pose.rpy))
+    return None if replaces_rpy else pose.rpy
 
 
 def is_other_turn(pose: Transform) -> bool:
     """Whether an origin has a quaternion that turns otherwise than its rpy does."""
-    said = dict(pose.extra_attributes).get(QUATERNION)
-    return said is not None and not _turns_as(said, pose.rpy)
+    quaternion = dict(pose.extra_attributes).get(QUATERNION)
+    return quaternion is not None and not _turns_as(quaternion, pose.rpy)
 
 
 def _turns_as(quaternion: str, rpy: Vector3) -> bool:

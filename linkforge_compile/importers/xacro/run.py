@@ -151,7 +151,7 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
     if answer.get("missing"):
         return Failed(None)
     files, read = tuple(map(Path, answer["files"])), tuple(map(Path, answer["read"]))
-    arguments = {name: place_of(place) for name, place in answer["arguments"].items()}
+    arguments = {name: parse_mark(place) for name, place in answer["arguments"].items()}
     wanted = tuple(answer["wanted"])
     if "text" in answer:
         return Expanded(answer["text"], files, read, arguments, wanted, tuple(answer["warnings"]))
@@ -162,7 +162,7 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
         read,
         arguments,
         wanted,
-        place_of(place) if place else None,
+        parse_mark(place) if place else None,
         Path(file) if file else None,
         answer.get("line"),
         answer.get("kind", ""),
@@ -171,7 +171,7 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
     )
 
 
-def place_of(mark: str) -> Place:
+def parse_mark(mark: str) -> Place:
     """Parse the mark of an element."""
     file, _, element = mark.partition(":")
     return Place(int(file), int(element))
@@ -218,7 +218,7 @@ class _Moved(XmlElement):
 
 def _moved(element: XmlElement, find: Find, around: Span | None) -> XmlElement:
     mark = element.get(MARK)
-    written = find(place_of(mark)) if mark else None
+    written = find(parse_mark(mark)) if mark else None
     span = written.span if written else around or element.span
     known = written.attributes if written else {}
     values = {name: value for name, value in element.values.items() if name != MARK}

@@ -7,6 +7,8 @@ class DeclareLaunchArgument:
             raise RuntimeError("choices are empty")
         if choices is not None and isinstance(default_value, str) and default_value not in choices:
             raise RuntimeError(f"default {default_value!r} is none of {choices}")
+        if description is not None and choices is not None:
+            description = f"{description}{'' if description.endswith('.') else '.'} Valid choices are: {choices}"
         self.name, self.description, self.choices = name, description, choices
         self.default_value = None if default_value is None else normalize_to_list_of_substitutions(default_value)
 

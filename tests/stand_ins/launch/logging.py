@@ -1,5 +1,5 @@
 import logging
 
 
-def get_logger(name):
+def get_logger(name=None):
     return logging.getLogger(name)

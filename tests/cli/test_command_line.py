@@ -1,0 +1,59 @@
+"""How words of the command line are read: `--`, names of options, and names of files in any locale."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.in_process import linkforge
+
+SPEC = "linkforge: 1\nname: arm\nlinks: {base: }\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "output"),
+    [
+        (("check", "-q", "--", "-arm.robot.yaml", "b.robot.yaml"), ""),
+        (("compile", "-o", "build/", "--", "-arm.robot.yaml"), ""),
+        (("diff", "--", "-arm.robot.yaml", "b.robot.yaml"), "-arm.robot.yaml and b.robot.yaml are the same robot\n"),
+    ],
+)
+def test_words_after_two_dashes_are_no_options(tmp_path: Path, words: tuple[str, ...], output: str):
+    for name in ("-arm.robot.yaml", "b.robot.yaml"):
+        (tmp_path / name).write_text(SPEC)
+    run = linkforge(*words, cwd=tmp_path)
+    assert (run.returncode, run.stdout) == (0, output), run.stderr
+
+
+def test_a_file_whose_name_begins_with_a_dash_is_quoted_as_written(tmp_path: Path):
+    run = linkforge("deps", "--", "-arm.robot.yaml", "-b.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 2
+    assert "takes one spec, found 2: -arm.robot.yaml, -b.robot.yaml" in run.stderr
+
+
+@pytest.mark.parametrize("words", [("compile", "--form", "urdf"), ("check", "--all"), ("diff", "--tol", "1")])
+def test_an_abbreviated_option_is_refused(tmp_path: Path, words: tuple[str, ...]):
+    (tmp_path / "arm.robot.yaml").write_text(SPEC)
+    run = linkforge(*words, "arm.robot.yaml", cwd=tmp_path)
+    assert run.returncode == 2
+    assert f"unrecognized arguments: {words[1]}" in run.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only where the names of files are bytes")
+def test_names_of_files_are_the_same_in_the_locale_c(tmp_path: Path):
+    (tmp_path / "é.robot.yaml").write_text(SPEC)
+    (tmp_path / "hall.robot.yaml").write_text(
+        f"{SPEC}modules: {{m: {{use: é.robot.yaml, parent: base, prefix: m_}}}}\n"
+    )
+    for name in ("é", "hall"):
+        command = [sys.executable, "-m", "linkforge_compile", "compile", f"{name}.robot.yaml"]
+        outputs = {
+            locale: subprocess.run(
+                command, cwd=tmp_path, env={**os.environ, **settings}, capture_output=True, check=True, timeout=60
+            ).stdout
+            for locale, settings in {"C": {"LC_ALL": "C", "PYTHONUTF8": "0"}, "UTF-8": {"PYTHONUTF8": "1"}}.items()
+        }
+        assert outputs["C"] == outputs["UTF-8"]
+        assert f"from {name}.robot.yaml" in outputs["C"].decode()
