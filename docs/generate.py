@@ -16,7 +16,7 @@ import yaml
 from linkforge_compile.core.meshes import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
-from linkforge_compile.expand import includes, parameters
+from linkforge_compile.expand import parameters, spec_tree
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
@@ -230,8 +230,8 @@ def _bounds() -> str:
         "size of a spec or data file": f"{MAX_FILE_BYTES // mebibyte} MiB",
         "depth of nested lists and maps": nodes.MAX_DEPTH,
         "modules within modules": MAX_DEPTH,
-        "files included from included files": includes.MAX_DEPTH,
-        "included files in all": includes.MAX_INCLUDES,
+        "files included from included files": spec_tree.MAX_DEPTH,
+        "included files in all": spec_tree.MAX_INCLUDES,
         "characters of one expression": parse.MAX_LENGTH,
         "depth of one expression": parse.MAX_DEPTH,
         "bits of a whole number": operators.MAX_INTEGER_BITS,

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
@@ -19,13 +20,13 @@ from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Checked, Packages, Parameters, Settings, check_alone
+from linkforge_compile.pipeline import Packages, Parameters, Settings, check_alone
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.expand_uses import Semantic
+    from linkforge_compile.expand.xacro import Expansion
     from linkforge_compile.formats.urdf import Gazebo
 
 _IMPORTED = (URDF, SRDF)
@@ -121,11 +122,11 @@ def _read_back(robot: Robot, gazebo: Gazebo, sink: Diagnostics) -> Robot | None:
     result = with_srdf(imported, semantic, check, sink) if semantic else (imported, check(imported.tree))
     if result is None:
         return None
-    sink.report_all(result[1].faults)
+    sink.report_all(result[1].diagnostics)
     return None if sink.has_errors else result[1].robot
 
 
-def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Checked]:
+def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Compilation]:
     """Return a function that compiles the tree of a spec; it reads each mesh once for all its calls."""
     meshes = MeshSolids(loader.budget)
     return lambda tree: check_alone(meshes, replace(spec, tree=tree), loader)
@@ -169,7 +170,7 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
         return None
     # The tree has the spans of the files, so faults of the robot are reported there.
     whole, compiled = both
-    sink.report_all(compiled.faults)
+    sink.report_all(compiled.diagnostics)
     # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
@@ -205,7 +206,7 @@ def _spec_text(imported: Imported, sink: Diagnostics) -> str:
 _Read = tuple[SourceFile, Imported]
 
 
-def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Semantic | None:
+def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Expansion | None:
     from linkforge_compile.expand.expand_uses import open_semantic
     from linkforge_compile.expand.xacro import XacroUse
 
@@ -236,8 +237,8 @@ def _read_xacro(xacro: Path, arguments: Arguments, declared: _Names, loader: Loa
     from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
-    expanded = read_xacro(use, loader, sink, keeps_refused=True)
-    return (expanded.file, expanded.imported) if expanded else None
+    robot = read_xacro(use, loader, sink, keeps_refused=True)
+    return (robot[0][0], robot[1]) if robot else None
 
 
 def _losses(imported: Imported, robot: Robot, reported: Collection[Span]) -> Iterator[Diagnostic]:

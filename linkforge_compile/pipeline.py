@@ -6,6 +6,7 @@ Stages pass values on and report faults to the sink; no stage stops at the first
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -256,7 +257,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
-    loader.check_spec = lambda spec, loader: check_alone(meshes, spec, loader).faults
+    loader.check_spec = partial(check_alone, meshes)
     robot = None
     suppressions: tuple[Suppression, ...] = ()
     try:
@@ -301,15 +302,8 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     return lowered.robot
 
 
-class Checked(NamedTuple):
-    """The robot of a spec that was compiled by itself, None if it has errors, and these."""
-
-    robot: Robot | None
-    faults: tuple[Diagnostic, ...]
-
-
-def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Checked:
-    """Compile a spec by itself, within a budget of its own, sharing the meshes of the whole compile."""
+def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Compilation:
+    """Compile a spec by itself for its errors, within a budget of its own, sharing the meshes of the whole compile."""
     sink, was_reported = Diagnostics(), meshes.is_without_library
     try:
         with loader.separate_budget():
@@ -317,4 +311,4 @@ def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Checked:
     finally:
         meshes.is_without_library = was_reported  # this sink is discarded: the whole compile reports it
     faults = tuple(fault for fault in sink if fault.severity is Severity.ERROR)
-    return Checked(None if faults else robot, faults)
+    return Compilation(None if faults else robot, faults)

@@ -34,8 +34,8 @@ class Roots:
         """
         # A spec reached through a link may use files next to the link and next to the spec.
         starts = () if place is None else dict.fromkeys((as_walked(place), *_real((place,))))
-        folders = (*map(_top_of, starts), *named, *_search_path("ROS_PACKAGE_PATH"))
-        installed = tuple(_search_path("AMENT_PREFIX_PATH"))
+        folders = (*map(_top_of, starts), *named, *search_path("ROS_PACKAGE_PATH"))
+        installed = tuple(search_path("AMENT_PREFIX_PATH"))
         return cls(_real(folders), installed=installed)
 
     def naming(self, files: Iterable[Path]) -> Roots:
@@ -126,7 +126,8 @@ def _top_of(place: Path) -> Path:
     return next(tops, folder)
 
 
-def _search_path(variable: str) -> Iterator[Path]:
+def search_path(variable: str) -> Iterator[Path]:
+    """Yield the folders that a variable of the environment lists."""
     return (Path(entry).absolute() for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
 
 

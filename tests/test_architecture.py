@@ -24,22 +24,26 @@ MAY_IMPORT = {
     "limits": "source diagnostics",
     "syntax": "source diagnostics limits units",
     "expressions": "source diagnostics limits units syntax",
+    "paths": "source diagnostics syntax expressions roots",
     "schema": "source diagnostics syntax units resources expressions",
     "core": "source units roots",
-    "importers": "banner source diagnostics limits units syntax core",
-    "expand": "source diagnostics limits units syntax schema expressions importers roots",
-    "lower": "source diagnostics limits units syntax expand core roots",
+    "compilation": "diagnostics core",
+    "importers": "banner source diagnostics limits units syntax core compilation",
+    "expand": "source diagnostics limits units syntax schema expressions importers roots paths compilation",
+    "lower": "source diagnostics limits units syntax expand core roots paths",
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
     "export_spec": "source diagnostics units syntax core expand",
     "compare": "source units core formats",
-    "compilation": "diagnostics core",
     "pipeline": (
         "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
         "gc_paused compilation"
     ),
-    "importing": "source diagnostics limits syntax importers expand core lower formats pipeline fresh_stack gc_paused",
+    "importing": (
+        "source diagnostics limits syntax core compilation importers expand lower formats pipeline fresh_stack "
+        "gc_paused"
+    ),
     "launch": "diagnostics formats core expand pipeline file_watcher",
     "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (

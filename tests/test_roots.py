@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import Compilation, check_file, compile_file, compile_text, import_urdf
-from linkforge_compile.expand.files import find_package
+from linkforge_compile.paths import find_package
 from linkforge_compile.roots import ANYWHERE, Roots
 
 PART = "linkforge: 1\nname: part\nlinks: {tip: }\n"

@@ -128,13 +128,18 @@ def add_outside_option(parser: argparse.ArgumentParser) -> None:
 
 def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
     """Return the `--package` options as folders by name; UsageError if one is not NAME=PATH."""
+    return parse_packages(arguments.packages, "--package")
+
+
+def parse_packages(pairs: Iterable[str], option: str) -> dict[str, str]:
+    """Return the values of an option as folders by name; UsageError if one is not NAME=PATH."""
     packages: dict[str, str] = {}
-    for pair in arguments.packages:
+    for pair in pairs:
         name, separator, folder = pair.partition("=")
         if not (name and separator and folder):
-            raise UsageError(f"--package takes NAME=PATH, found '{pair}'")
+            raise UsageError(f"{option} takes NAME=PATH, found '{pair}'")
         if not Path(folder).is_dir():
-            raise UsageError(f"--package {pair}: there is no folder '{folder}'")
+            raise UsageError(f"{option} {pair}: there is no folder '{folder}'")
         packages[name] = folder
     return packages
 
@@ -269,11 +274,9 @@ def _read_text(stream: BinaryIO, name: str) -> str:
     content = stream.read(MAX_FILE_BYTES + 1)
     if len(content) > MAX_FILE_BYTES:
         raise UsageError(f"{name} is larger than {MAX_FILE_BYTES // 1024**2} MiB")
-    from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
+    from linkforge_compile.source.characters import UnreadableError, text_of
 
     try:
-        return xml_text(content) if begins_xml(content) else content.decode("utf-8")
-    except EncodingError as error:
+        return text_of(content)
+    except UnreadableError as error:
         raise UsageError(f"{name} cannot be read: {error}") from None
-    except UnicodeDecodeError as error:
-        raise UsageError(f"{name} is not UTF-8: {error.reason} at byte {error.start}") from None

@@ -1,4 +1,24 @@
-"""Turn a spec, its parameters and the files it uses into a tree of Instances with every expression computed."""
+"""Turn a spec, its parameters and the files it uses into a tree of Instances with every expression computed.
+
+What each module knows; it imports only those above it:
+
+    spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
+    loader            the files of one compile, each read once -> SpecFile
+    uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes
+    values            a node <-> its value in expressions; where a value was written
+    evaluate          a node with expressions -> its value in one scope
+    expand_tree       a tree with expressions, `for` and `when` -> one without
+    arguments         what the user sets -> Arguments; the variants of a file
+    parameters        a declaration -> type and constraints, which convert a value or refuse it
+    parameter_values  declaration, arguments, variants -> the value in force
+    file_scope        one use of a file -> the names, values and functions that its expressions know
+    merge_objects     objects in their long form; `defaults` -> merged into links, joints and sensors
+    override          a patch and a tree -> the patched tree
+    modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
+    xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
+    expand_uses       all of this for a file, then for each file that it uses
+    listing           what a file lets its user set, for `params`, editors and launch files
+"""
 
 from __future__ import annotations
 
@@ -16,14 +36,12 @@ from linkforge_compile.expand.uses import (
     COMPUTING,
     XACRO,
     Instance,
-    PathSite,
     charge_entries,
     mesh_base,
     mesh_finder,
     own_name,
     robot_part,
 )
-from linkforge_compile.source import Span
 
 __all__ = [
     "XACRO",
@@ -73,14 +91,10 @@ def plain_instance(spec: SpecFile, loader: Loader) -> Instance:
     """Return the Instance of a plain file, the same as `expand_uses` makes of it."""
     tree = robot_part(spec.tree)
     charge_entries(tree, 1, loader.budget)
-
-    def site(text: str, where: Span) -> PathSite:
-        return PathSite(text, where, spec, spec.packages)
-
     return Instance(
         own_name(tree),
         tree,
         mesh_bases={} if spec.folder is None else {spec.file: mesh_base(spec, spec)},
-        find_mesh=mesh_finder({spec.file: site}, loader),
+        find_mesh=mesh_finder({spec.file: (spec, spec.packages)}, loader),
         packages=spec.packages,
     )

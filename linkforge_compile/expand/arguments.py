@@ -157,8 +157,7 @@ class Variants(NamedTuple):
     @classmethod
     def of(cls, spec: SpecFile, variant: str | None = None) -> Variants:
         """Return those of a file, with those that `--variant` selects; an empty one has no settings."""
-        section = spec.tree.get("variants")
-        entries = section.entries.values() if isinstance(section, YamlMap) else ()
+        entries = spec.tree.section("variants").values()
         maps = {
             one.name: one.value if isinstance(one.value, YamlMap) else YamlMap({}, one.value.span) for one in entries
         }

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
@@ -13,17 +13,17 @@ from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.files import Package
 from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
-from linkforge_compile.expand.modules import ModuleEntry, read_modules
+from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
+from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
     XACRO,
     Instance,
-    MakeSite,
     NameReference,
     PathSite,
+    Writers,
     charge_entries,
     locate,
     mesh_base,
@@ -36,11 +36,11 @@ from linkforge_compile.expand.uses import (
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import leaves_in
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro import XacroUse
-    from linkforge_compile.importers.document import Move
+    from linkforge_compile.expand.xacro import Expansion, XacroUse
 
 MAX_DEPTH = 50
 
@@ -64,7 +64,7 @@ class _Use:
     bound: BoundArguments
     entry: ModuleEntry | None = None
     outer: _Use | None = None
-    outer_sites: Mapping[SourceFile, MakeSite] = field(default_factory=dict)
+    outer_writers: Writers = field(default_factory=dict)
 
     @property
     def chain(self) -> tuple[_Use, ...]:
@@ -84,9 +84,10 @@ class _Use:
         """The `use` of this file and of those around it, the innermost first."""
         return tuple(use.bound.use for use in self.chain if use.bound.use)
 
-    def sites(self, scope: FileScope) -> dict[SourceFile, MakeSite]:
-        """Return how to read paths that this use's files or those around it wrote."""
-        return {**self.outer_sites, **dict.fromkeys((self.spec.file, *self.spec.included), scope.builtins.site)}
+    def writers(self, packages: Mapping[str, Path]) -> Writers:
+        """Return the files that may have written a path here: its own, which know these packages, and those around."""
+        files = {self.spec.file: self.spec, **self.spec.included}
+        return {**self.outer_writers, **{file: (part, packages) for file, part in files.items()}}
 
 
 class _Expansion:
@@ -110,25 +111,25 @@ class _Expansion:
         removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
         references = scope.builtins.references
         if use.entry and use.entry.overrides:
-            from linkforge_compile.expand.modules import ModuleBody
-
             body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
             references = references_left(references, tree, body.tree) if references else references
             tree, entries, removed = body.tree, body.entries, body.removed
         charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
         modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
-        files = [part for one in reversed(use.chain) for part in (one.spec, *one.spec.included.values())]
+        writers, compiled = use.writers(scope.packages), self._state.compiled
         scope.check_unused_variables()
         return Instance(
             use.entry.name if use.entry else own_name(tree),
             tree,
             entry=use.entry.ref if use.entry else None,
             prefix=use.entry.prefix if use.entry else "",
-            mesh_bases={part.file: mesh_base(part, self._state.compiled) for part in files if part.folder is not None},
+            mesh_bases={
+                file: mesh_base(part, compiled) for file, (part, _) in writers.items() if part.folder is not None
+            },
             include_stack=stack,
             modules=modules,
             references=references,
-            find_mesh=mesh_finder(use.sites(scope), self._state.loader),
+            find_mesh=mesh_finder(writers, self._state.loader),
             removed=removed,
             packages=scope.packages,
             defaults=defaults,
@@ -142,7 +143,7 @@ class _Expansion:
         if spec is None:
             return _unread(entry)
         bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
-        use = _Use(spec, bound, entry, outer, outer.sites(scope))
+        use = _Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
@@ -162,7 +163,7 @@ class _Expansion:
         spec, arguments = self._open(entry, site, used, sink)
         if spec is None or semantic is None or srdf_use is None:
             return None, arguments
-        return with_semantic(spec, semantic, srdf_use, loader, sink), arguments
+        return _with_semantic(spec, semantic, srdf_use, loader, sink), arguments
 
     def _open(
         self, entry: ModuleEntry, site: PathSite, used: frozenset[str] | None, sink: Diagnostics
@@ -202,8 +203,6 @@ def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap 
     assert isinstance(tree, YamlMap), "a map that is computed is a map"
     if spec.tree.get("defaults") is None:
         return tree, None
-    from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
-
     defaults = compute_defaults(spec.tree, evaluator)
     return with_defaults(tree, defaults) if defaults else tree, defaults
 
@@ -230,75 +229,35 @@ def references_left(
     references: Iterable[NameReference], before: YamlNode, after: YamlNode
 ) -> tuple[NameReference, ...]:
     """Return the references in texts that an override has not removed from a tree."""
-    removed = set(_places(before)) - set(_places(after))
+    removed = {Span(*leaf.span) for leaf in leaves_in(before)} - {Span(*leaf.span) for leaf in leaves_in(after)}
     return tuple(one for one in references if not any(map(one.where.span.lies_in, removed)))
 
 
-def _places(node: YamlNode) -> Iterator[Span]:
-    """Yield the spans of the scalars and keys of a tree."""
-    match node:
-        case YamlScalar():
-            yield Span(*node.span)
-        case YamlList():
-            for item in node:
-                yield from _places(item)
-        case YamlMap():
-            for entry in node:
-                yield Span(*entry.key.span)
-                yield from _places(entry.value)
-
-
-class Semantic(NamedTuple):
-    """The text of an SRDF, expanded if it is a xacro, in a folder that was reached through `package`.
-
-    `moved` gives its elements the places where they were written in `files`, None for a text that was not expanded.
-    `arguments` are the names of those that a xacro uses.
-    """
-
-    text: SourceFile
-    files: tuple[SourceFile, ...]
-    folder: Path
-    package: Package | None = None
-    moved: Move | None = None
-    arguments: frozenset[str] = frozenset()
-
-
-def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Semantic | None:
+def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
     """Read an SRDF, expanded if it is a xacro; None after a reported error."""
-    folder = use.path.parent
-    if use.path.suffix.lower() != XACRO:
-        file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
-        return Semantic(file, (file,), folder, use.package) if file else None
-    from linkforge_compile.expand.xacro import expand_xacro
+    from linkforge_compile.expand.xacro import Expansion, expand_xacro
 
-    # The URDF, which is read next, reports arguments that neither of the two uses.
-    expansion = expand_xacro(replace(use, used_elsewhere=None), loader, sink)
-    if expansion is None:
-        return None
-    return Semantic(expansion.text, expansion.files, folder, use.package, expansion.moved, expansion.arguments)
+    if use.path.suffix.lower() == XACRO:
+        # The URDF, which is read next, reports arguments that neither of the two uses.
+        return expand_xacro(replace(use, used_elsewhere=None), loader, sink)
+    file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
+    return Expansion(file, (file,)) if file else None
 
 
-def with_semantic(
-    spec: SpecFile, semantic: Semantic, use: XacroUse, loader: Loader, sink: Diagnostics
+def _with_semantic(
+    spec: SpecFile, semantic: Expansion, use: XacroUse, loader: Loader, sink: Diagnostics
 ) -> SpecFile | None:
     """Return a robot with its SRDF merged; None after a reported error. `use` names the SRDF."""
     from linkforge_compile.importers.document import Comments, Imported
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     def merged(tree: YamlMap) -> SpecFile:
-        parts = {file: SpecFile(file, tree, semantic.folder, semantic.package) for file in semantic.files}
+        parts = {file: SpecFile(file, tree, use.path.parent, use.package) for file in semantic.files}
         return replace(spec, tree=tree, included={**spec.included, **parts})
-
-    def checked(tree: YamlMap) -> _Checked:
-        return _Checked(loader.check_spec(merged(tree), loader))
 
     imported = Imported(spec.tree, Comments({}, {}))
     inside = with_use_trace(sink, (use.used.where,))
-    read = with_srdf(imported, semantic.text, checked, inside, semantic.moved)
+    read = with_srdf(
+        imported, semantic.text, lambda tree: loader.check_spec(merged(tree), loader), inside, semantic.moved
+    )
     return merged(read[0].tree) if read else None
-
-
-class _Checked(NamedTuple):
-    """The errors of a robot with its SRDF, as `with_srdf` needs them."""
-
-    faults: tuple[Diagnostic, ...]

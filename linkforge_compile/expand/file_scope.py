@@ -22,7 +22,6 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
@@ -40,10 +39,11 @@ from linkforge_compile.expressions import (
     as_text,
     kind_name,
 )
+from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -175,8 +175,7 @@ class FileScope:
     def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
         """Yield the entries of `variables` or `data` with valid names that no section before declares."""
         kind = _KINDS[section]
-        declared = self._spec.tree.get(section)
-        for entry in declared if isinstance(declared, YamlMap) else ():
+        for entry in self._spec.tree.section(section).values():
             other = self._declared_before(entry.name, section)
             if other:
                 self._ambiguous.add(entry.name)
@@ -191,9 +190,8 @@ class FileScope:
         for other, kind in _KINDS.items():
             if other == section:
                 return None
-            declared = self._spec.tree.get(other)
-            if isinstance(declared, YamlMap) and name in declared.entries:
-                return kind, declared.entries[name].key
+            if name in (declared := self._spec.tree.section(other)):
+                return kind, declared[name].key
         return None
 
     def _lazy(self, compute: Callable[[YamlEntry], Value | Fault], entry: YamlEntry) -> Lazy:
@@ -205,12 +203,23 @@ class FileScope:
         return FAULT if report_interpolated_quantity(entry.value, value, self.evaluator) else value
 
     def _data_value(self, entry: YamlEntry) -> Value | Fault:
+        """Return the content of a file of `data`, in which text with a unit is a quantity and `$(` is plain text."""
         path = self.evaluator.value(entry.value)
-        place = self.evaluator.place(entry.value)
-        node = load_data(entry, path, lambda text: self.builtins.site(text, place), self._loader, self._sink)
+        if path is FAULT:
+            return FAULT
+        text = as_text(path)
+        if text is None:
+            found = "nothing" if path is None else kind_name(path)
+            self._sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
+            return FAULT
+        site = self.builtins.site(text, self.evaluator.place(entry.value))
+        target = locate(site, self._loader, self._sink)
+        tags = angle_tags(self._sink)
+        node = self._loader.open_data(target.path, self._sink, tags, site.used) if target else None
         if node is None:
             return FAULT
-        self.evaluator.settings[entry.name] = Setting(Kind.DATA, node, name=node.span.file.name, named_by=entry.value)
+        name = node.span.file.name
+        self.evaluator.settings[entry.name] = Setting(Kind.DATA, node, name=name, named_by=entry.value)
         return plain_value(node)
 
     def _paths_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
@@ -329,22 +338,3 @@ class FileBuiltins:
     def _prefixed(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
         self._references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
         return FAULT if isinstance(self._prefix, Fault) else self._prefix + name
-
-
-def load_data(
-    entry: YamlEntry, path: Value | Fault, site: Callable[[str], PathSite], loader: Loader, sink: Diagnostics
-) -> YamlNode | None:
-    """Return the tree of the file that an entry of `data` names, None after a reported error.
-
-    `path` is the computed value of the entry. In the file, text with a unit is a quantity and `$(` is plain text.
-    """
-    if path is FAULT:
-        return None
-    text = as_text(path)
-    if text is None:
-        found = "nothing" if path is None else kind_name(path)
-        sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
-        return None
-    path_site = site(text)
-    target = locate(path_site, loader, sink)
-    return loader.open_data(target.path, sink, angle_tags(sink), path_site.used) if target else None

@@ -13,13 +13,13 @@ from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.files import find_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
 from linkforge_compile.expand.xacro import in_order
 from linkforge_compile.expressions import FAULT, Value
+from linkforge_compile.paths import find_package
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
@@ -98,8 +98,8 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
     variants = Variants.of(spec)
     BoundArguments(Arguments(is_partial=True), sink).report_unknown(scope.declared, variants, spec)
     return Listing(
-        name=_text(spec.tree.get("name")),
-        description=_text(spec.tree.get("description")),
+        name=spec.tree.text("name") or "",
+        description=spec.tree.text("description") or "",
         parameters=tuple(_listed(declaration, scope, spec, sink) for declaration in scope.declared.values()),
         variants={
             name: {entry.name: as_written(entry.value) for entry in variant}
@@ -115,9 +115,8 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
     """
     ignored = Diagnostics()
     scope = _scope_without_arguments(spec, loader, ignored)
-    section = spec.tree.get("modules")
     listed: dict[str, Listing] = {}
-    for entry in section if isinstance(section, YamlMap) else ():
+    for entry in spec.tree.section("modules").values():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
         if isinstance(use, YamlScalar) and use.text not in listed and use.text.lower().endswith(SPEC_ENDINGS):
             used = open_use(scope.builtins.site(use.text, use.span), loader, ignored)
@@ -145,9 +144,8 @@ def _scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) 
 
 
 def _listed(declaration: Declaration, scope: FileScope, spec: SpecFile, sink: Diagnostics) -> ListedParameter:
-    section = spec.tree.get("parameters")
-    declared = section.get(declaration.name) if isinstance(section, YamlMap) else None
-    description = _text(declared.get("description")) if isinstance(declared, YamlMap) else ""
+    declared = spec.tree.section("parameters")[declaration.name].value
+    description = (declared.text("description") if isinstance(declared, YamlMap) else None) or ""
     default = None if declaration.default is None else as_written(declaration.default)
     type_ = resolve_type(declaration, scope.evaluator)
     if type_ is None:
@@ -180,10 +178,6 @@ def _plain(value: Value) -> Plain:
         case Mapping():
             return {key: _plain(item) for key, item in value.items()}
     return value
-
-
-def _text(node: YamlNode | None) -> str:
-    return node.text if isinstance(node, YamlScalar) else ""
 
 
 # The arguments of a xacro file, found by reading it and what it includes, without running xacro.

@@ -6,32 +6,24 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
-from linkforge_compile.expand.files import (
-    UnreadableError,
-    as_typed,
-    names_in,
-    read_spec,
-    read_utf8,
-    read_xml,
-    searched_note,
-)
-from linkforge_compile.expand.includes import ComposedFile, compose, follow_includes
-from linkforge_compile.expand.spec_tree import cached_source, read_tree
-from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.expand.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
+from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
+from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
-from linkforge_compile.source.characters import begins_xml
+from linkforge_compile.source.characters import UnreadableError, begins_xml
 from linkforge_compile.source.provenance import uses_in
+from linkforge_compile.source.read_file import read_text
 from linkforge_compile.syntax import Tags, YamlMap, YamlNode, YamlScalar, read_data
 from linkforge_compile.syntax.parser import IGNORE_WORDS, suppressions_in
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.files import NearbyPackages, Package
 
 _PACKAGE_SCHEME = "package://"
 
@@ -68,12 +60,8 @@ class ImportSite:
     where: Span | None
 
 
-class _ReadText(Protocol):
-    def __call__(self, path: Path, *, only_regular: bool) -> str | None: ...
-
-
-CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], tuple[Diagnostic, ...]]
-"""Returns the errors of a spec compiled by itself."""
+CheckSpec: TypeAlias = Callable[[SpecFile, "Loader"], Compilation]
+"""Compiles a spec by itself and returns its errors."""
 
 
 class Loader:
@@ -90,7 +78,7 @@ class Loader:
         """
         self.packages = dict(packages or {})
         self.roots = roots
-        self.check_spec: CheckSpec = lambda _spec, _loader: ()
+        self.check_spec: CheckSpec = lambda _spec, _loader: Compilation(None, ())
         self.runs_xacro = True
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
@@ -140,7 +128,7 @@ class Loader:
         real = identity(path)
         if real not in self._specs:
             is_urdf = path.suffix.lower() == ".urdf"
-            source = self._read(path, used, sink, read_xml if is_urdf else read_spec)
+            source = self._read(path, used, sink)
             if source is None:
                 return None
             # A file that is used twice is read once; its faults are reported with the first use.
@@ -157,7 +145,7 @@ class Loader:
         """Read an XML file in the encoding that it declares; `used` names it, None for the command line."""
         real = identity(path)
         if real not in self._xml:
-            source = self._read(path, used, sink, read_xml)
+            source = self._read(path, used, sink)
             if source is None:
                 return None
             self._xml[real] = source
@@ -167,7 +155,7 @@ class Loader:
         """Read a YAML file of any shape that may hold `tags`; None after a reported error."""
         real = identity(path)
         if real not in self._data:
-            source = self._read(path, used, sink, read_utf8)
+            source = self._read(path, used, sink)
             if source is None:
                 return None
             inside = AnnotatingSink(sink, [Note("read here", used.where)])
@@ -202,7 +190,7 @@ class Loader:
         return False
 
     def _read(
-        self, path: Path, used: ImportSite | None, sink: Diagnostics, read: _ReadText, included: Span | None = None
+        self, path: Path, used: ImportSite | None, sink: Diagnostics, included: Span | None = None
     ) -> SourceFile | None:
         """Read the text of a file; None after a reported error."""
         used = used or ImportSite(str(as_typed(path)), None)
@@ -210,7 +198,7 @@ class Loader:
             return None
         try:
             # A pipe is fine if the user names it; one that an untrusted spec names would block the compile.
-            text = read(path, only_regular=used.where is not None)
+            text = read_text(path, MAX_FILE_BYTES, only_regular=used.where is not None)
         except UnreadableError as error:
             byte = place_of_byte(error.undecoded, str(as_typed(path))) if error.undecoded else None
             notes = [Note("the byte is here", byte)] if byte and used.where else []
@@ -242,7 +230,7 @@ class Loader:
             return ComposedFile(source, tree)
 
         def read_included(path: Path, item: YamlScalar) -> tuple[SourceFile, YamlMap] | None:
-            file = self._read(path, ImportSite(item.text, item.span), sink, read_utf8, included=item.span)
+            file = self._read(path, ImportSite(item.text, item.span), sink, included=item.span)
             part = read_tree(file, sink, self.budget) if file else None
             return (file, part) if file and part is not None else None
 

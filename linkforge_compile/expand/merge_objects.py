@@ -47,43 +47,40 @@ def with_defaults(tree: YamlMap, defaults: YamlMap) -> YamlMap:
     An entry's own value overrides the default: maps are merged, lists are not, and a key that excludes others removes
     their defaults.
     """
-    sections = dict(tree.entries)
     for name, kind in _SECTIONS.items():
         section, default = tree.get(name), defaults.get(kind) or _faulty_default(kind, defaults)
         if isinstance(section, YamlMap) and isinstance(default, YamlMap):
-            shape = shapes().under(name)
-            sections[name] = YamlEntry(sections[name].key, _merge_section(section, default, shape))
-    links = sections["links"].value if "links" in sections else None
+            tree = tree.with_value(name, _merge_section(section, default, shapes().under(name)))
+    links = tree.get("links")
     if isinstance(links, YamlMap):
-        sections["links"] = YamlEntry(sections["links"].key, _merge_visuals_and_collisions(links, defaults))
-    return YamlMap(sections, tree.span)
+        tree = tree.with_value("links", links.mapped(lambda link: _with_shape_defaults(link, defaults)))
+    return tree
 
 
 def _faulty_default(kind: str, defaults: YamlMap) -> YamlMap | None:
     """Return the faulty defaults whose keys look like a kind, as its default, so that entries know of them."""
-    faulty = {one.name: one for one in defaults if isinstance(one.value, YamlFault) and nearest(one.name, [kind])}
-    return YamlMap(faulty, defaults.span) if faulty else None
+    faulty = defaults.only(lambda one: isinstance(one.value, YamlFault) and nearest(one.name, [kind]) is not None)
+    return faulty if len(faulty) else None
 
 
 def _merge_section(section: YamlMap, default: YamlMap, shape: Shape) -> YamlMap:
-    entries = {}
-    for entry in section:
+    def merged(entry: YamlEntry) -> YamlNode:
         value = entry.value if is_set(entry.value) else YamlMap({}, entry.key.span)
-        if isinstance(value, YamlMap):
-            value = merge(_applicable(default, value, shape), value, shape.under(entry.name))
-        entries[entry.name] = YamlEntry(entry.key, value)
-    return YamlMap(entries, section.span)
+        if not isinstance(value, YamlMap):
+            return value
+        return merge(_applicable(default, value, shape), value, shape.under(entry.name))
+
+    return section.mapped(merged)
 
 
 def _applicable(default: YamlMap, entry: YamlMap, section: Shape) -> YamlMap:
     """Return the part of a default that an entry may have."""
-    excluded: tuple[str, ...] = ()
     kind = entry.get("type") or default.get("type")
     if section is shapes().under("joints") and isinstance(kind, YamlScalar):
-        excluded = _KEYS_NOT_FOR.get(kind.text, ())
+        return default.without(*_KEYS_NOT_FOR.get(kind.text, ()))
     if section is shapes().under("links"):
-        excluded = tuple(_keys_needing_shapes(default, entry))
-    return YamlMap({name: one for name, one in default.entries.items() if name not in excluded}, default.span)
+        return default.without(*_keys_needing_shapes(default, entry))
+    return default
 
 
 def _keys_needing_shapes(default: YamlMap, link: YamlMap) -> Iterator[str]:
@@ -99,23 +96,19 @@ def _keys_needing_shapes(default: YamlMap, link: YamlMap) -> Iterator[str]:
         yield "inertial"
 
 
-def _merge_visuals_and_collisions(links: YamlMap, defaults: YamlMap) -> YamlMap:
-    """Return the links with the defaults of visuals and collisions in each that they have."""
-    merged = {}
-    for entry in links:
-        link, link_shape = entry.value, shapes().under("links").under(entry.name)
-        for key in ("visual", "collision"):
-            default = defaults.get(key)
-            if not isinstance(link, YamlMap) or not isinstance(default, YamlMap):
-                continue
-            if isinstance(link.get(key), YamlScalar):
-                link = long_object(link, link_shape)  # the copies of `collision: visual` get the default of collisions
-            value = link.get(key)
-            if isinstance(value, YamlMap | YamlList):
-                value = _merge_each(value, default, link_shape.under(key))
-                link = YamlMap({**link.entries, key: YamlEntry(link.entries[key].key, value)}, link.span)
-        merged[entry.name] = YamlEntry(entry.key, link)
-    return YamlMap(merged, links.span)
+def _with_shape_defaults(entry: YamlEntry, defaults: YamlMap) -> YamlNode:
+    """Return a link with the defaults of visuals and collisions in each that it has."""
+    link, link_shape = entry.value, shapes().under("links").under(entry.name)
+    for key in ("visual", "collision"):
+        default = defaults.get(key)
+        if not isinstance(link, YamlMap) or not isinstance(default, YamlMap):
+            continue
+        if isinstance(link.get(key), YamlScalar):
+            link = long_object(link, link_shape)  # the copies of `collision: visual` get the default of collisions
+        value = link.get(key)
+        if isinstance(value, YamlMap | YamlList):
+            link = link.with_value(key, _merge_each(value, default, link_shape.under(key)))
+    return link
 
 
 def _merge_each(value: YamlMap | YamlList, default: YamlMap, shape: Shape) -> YamlNode:
@@ -179,9 +172,8 @@ def _without_for(node: YamlNode, shape: Shape) -> YamlNode:
             item = shape.item
             return YamlList(tuple(_without_for(one, item) for one in node), node.span)
         case YamlMap():
-            kept = [entry for entry in node if not (entry.name == "for" and shape.is_object)]
-            made = {one.name: YamlEntry(one.key, _without_for(one.value, shape.under(one.name))) for one in kept}
-            return YamlMap(made, node.span)
+            kept = node.without("for") if shape.is_object else node
+            return kept.mapped(lambda one: _without_for(one.value, shape.under(one.name)))
     return node
 
 
@@ -228,7 +220,7 @@ def long_form(node: YamlNode, shape: Shape) -> YamlNode:
     if isinstance(node, YamlMap):
         return YamlList((node,), node.span) if lists_objects(shape) else node
     if shape.is_object and shape.title in SHORT_FORMS:
-        return YamlMap({SHORT_FORMS[shape.title]: _entry(SHORT_FORMS[shape.title], node)}, node.span)
+        return YamlMap({}, node.span).with_value(SHORT_FORMS[shape.title], node)
     if shape.has_names and isinstance(node, YamlList):
         names = [item for item in node if isinstance(item, YamlScalar)]
         if len(names) == len(node):
@@ -250,7 +242,7 @@ def with_frames_as_joints(tree: YamlMap) -> YamlMap:
     frames = tree.get("frames")
     if not isinstance(frames, YamlMap):
         return tree
-    links, joints, left = _section(tree, "links"), _section(tree, "joints"), {}
+    links, joints, left = dict(tree.section("links")), dict(tree.section("joints")), {}
     for entry in frames:
         joint = _joint_of(entry)
         if joint is None or entry.name in links or joint.name in joints:
@@ -258,14 +250,12 @@ def with_frames_as_joints(tree: YamlMap) -> YamlMap:
         else:
             links[entry.name] = YamlEntry(entry.key, YamlMap({}, entry.key.span))
             joints[joint.name] = joint
-    sections = {"links": links, "joints": joints, "frames": left}
-    spans = {name: section.span if (section := tree.get(name)) else frames.span for name in sections}
-    made = {
-        name: _entry(name, YamlMap(entries, spans[name]))
-        for name, entries in sections.items()
-        if entries and not isinstance(tree.get(name), YamlFault)
-    }
-    return YamlMap({**{name: entry for name, entry in tree.entries.items() if name != "frames"}, **made}, tree.span)
+    made = tree.without("frames")
+    for name, entries in (("links", links), ("joints", joints), ("frames", left)):
+        section = tree.get(name)
+        if entries and not isinstance(section, YamlFault):
+            made = made.with_value(name, YamlMap(entries, section.span if section else frames.span))
+    return made
 
 
 def _joint_of(frame: YamlEntry) -> YamlEntry | None:
@@ -278,26 +268,20 @@ def _joint_of(frame: YamlEntry) -> YamlEntry | None:
         key = YamlScalar(f"{frame.name}_joint", f"{frame.name}_joint", frame.key.span)
     if not isinstance(key, YamlScalar):
         return None
+    joint = YamlMap({}, fields.span).with_value("type", YamlScalar("fixed", "fixed", frame.key.span))
     kept = {name: entry for name in ("parent", "origin") if (entry := fields.entries.get(name))}
-    type_ = _entry("type", YamlScalar("fixed", "fixed", frame.key.span))
-    return YamlEntry(key, YamlMap({"type": type_, **kept, "child": _entry("child", frame.key)}, fields.span))
+    return YamlEntry(key, YamlMap({**joint.entries, **kept}, fields.span).with_value("child", frame.key))
 
 
 def _with_copied_collision(link: YamlMap) -> YamlMap:
     """Return a link with the shapes of its visuals in place of `collision: visual`."""
-    collision, visual = link.entries.get("collision"), link.get("visual")
-    if not (collision and visual and isinstance(collision.value, YamlScalar) and collision.value.text == "visual"):
+    visual = link.get("visual")
+    if visual is None or link.text("collision") != "visual":
         return link
     visuals = visual if isinstance(visual, YamlList) else YamlList((visual,), visual.span)
-    copied = YamlList(tuple(_without_look(each) for each in visuals), collision.value.span)
-    return YamlMap({**link.entries, "collision": YamlEntry(collision.key, copied)}, link.span)
-
-
-def _without_look(visual: YamlNode) -> YamlNode:
-    if not isinstance(visual, YamlMap):
-        return visual
-    kept = {name: entry for name, entry in visual.entries.items() if name in {"origin", *GEOMETRIES}}
-    return YamlMap(kept, visual.span)
+    look = {"origin", *GEOMETRIES}
+    copied = tuple(one.only(lambda part: part.name in look) if isinstance(one, YamlMap) else one for one in visuals)
+    return link.with_value("collision", YamlList(copied, link.entries["collision"].value.span))
 
 
 def _with_listed_chain(group: YamlMap) -> YamlMap:
@@ -309,8 +293,7 @@ def _with_listed_chain(group: YamlMap) -> YamlMap:
     if isinstance(chains, YamlList):
         first = listed.items if isinstance(listed, YamlList) else (listed,)
         listed = YamlList((*first, *chains), listed.span)
-    kept = {name: entry for name, entry in group.entries.items() if name not in {"chain", "chains"}}
-    return YamlMap({"chains": _entry("chains", listed), **kept}, group.span)
+    return group.without("chain", "chains").with_value("chains", listed)
 
 
 _OBJECTS: Mapping[str, Callable[[YamlMap], YamlMap]] = {
@@ -318,15 +301,3 @@ _OBJECTS: Mapping[str, Callable[[YamlMap], YamlMap]] = {
     "a group": _with_listed_chain,
 }
 """By the title of an object, what `long_object` does with it."""
-
-
-def _section(tree: YamlMap, name: str) -> dict[str, YamlEntry]:
-    section = tree.get(name)
-    return dict(section.entries) if isinstance(section, YamlMap) else {}
-
-
-def _entry(name: str, value: YamlNode) -> YamlEntry:
-    return YamlEntry(YamlScalar(name, name, value.span), value)
-
-
-# Gazebo tags have keys of their own, and an import puts some under `properties` instead.

@@ -20,7 +20,7 @@ from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.loader import SpecFile
 from linkforge_compile.expand.merge_objects import with_frames_as_joints
-from linkforge_compile.expand.override import SECTIONS, Override, apply_patch, deletes, names_in_section, report_empty
+from linkforge_compile.expand.override import SECTIONS, Override, apply_patch, deletes, report_empty
 from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
@@ -75,8 +75,7 @@ def _read_entry(
         if not isinstance(body, YamlFault):
             evaluator.sink.report(NOT_A_MODULE.at(body.span, name=name, found=describe_node(body)))
         return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key, include_stack), is_named=False)
-    rest = YamlMap({key: inner for key, inner in body.entries.items() if key not in {"with", "override"}}, body.span)
-    fields = expand_node(rest, evaluator, _entry_shape())
+    fields = expand_node(body.without("with", "override"), evaluator, _entry_shape())
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
     arguments, is_computed = _arguments(body, name, evaluator, folder)
     override = _override(body.get("override"), name, evaluator)
@@ -193,11 +192,10 @@ class ModuleBody:
     def _with_override(self, override: Override) -> ModuleBody:
         own, nested = _split_nested(override)
         modules = YamlMap({entry.name: _section_entry(entry) for entry in self.entries}, self.tree.span)
-        before = with_frames_as_joints(_with_section(self.tree, "modules", modules))
+        before = with_frames_as_joints(self.tree.with_value("modules", modules))
         patched = apply_patch(own, before, self.removed)
-        patched = _without_links(patched, {*names_in_section(before, "links")} - {*names_in_section(patched, "links")})
-        section = patched.get("modules")
-        left = section.entries if isinstance(section, YamlMap) else {}
+        patched = _without_links(patched, {*before.section("links")} - {*patched.section("links")})
+        left = patched.section("modules")
         patched_entries = (
             _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
             for entry in self.entries
@@ -211,7 +209,7 @@ class ModuleBody:
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
         names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
         removed = DeletedNames(names, {entry.prefix: note for entry, note in gone}) | self.removed
-        return ModuleBody(_without_key(patched, "modules"), entries, removed)
+        return ModuleBody(patched.without("modules"), entries, removed)
 
 
 def _split_nested(override: Override) -> tuple[Override, Mapping[str, Override]]:
@@ -219,35 +217,28 @@ def _split_nested(override: Override) -> tuple[Override, Mapping[str, Override]]
     section = override.patch.get("modules")
     if not isinstance(section, YamlMap):
         return override, {}
-    nested, rest = {}, {}
-    for entry in section:
-        fields = entry.value
-        rest[entry.name] = entry
-        if isinstance(fields, YamlMap):
-            rest[entry.name] = YamlEntry(entry.key, _without_key(fields, "override"))
-            if isinstance(inner := fields.get("override"), YamlMap):
-                nested[entry.name] = replace(override, patch=inner)
-    patch = _with_section(override.patch, "modules", YamlMap(rest, section.span))
-    return replace(override, patch=patch), nested
+    maps = {entry.name: entry.value for entry in section if isinstance(entry.value, YamlMap)}
+    patches = {name: fields.get("override") for name, fields in maps.items()}
+    nested = {name: replace(override, patch=one) for name, one in patches.items() if isinstance(one, YamlMap)}
+    rest = section.mapped(lambda one: maps[one.name].without("override") if one.name in maps else one.value)
+    return replace(override, patch=override.patch.with_value("modules", rest)), nested
 
 
 def _section_entry(entry: ModuleEntry) -> YamlEntry:
     """Return a module as an entry of `modules`, including `with`."""
     fields = entry.ref.node
-    key = YamlScalar(entry.name, entry.name, entry.ref.span)
     assert isinstance(fields, YamlScalar | YamlList | YamlMap | YamlFault), "an entry of `modules` is YAML"
-    if not isinstance(fields, YamlMap) or not entry.arguments.entries:
-        return YamlEntry(key, fields)
-    return YamlEntry(key, _with_section(fields, "with", YamlMap(entry.arguments.entries, fields.span)))
+    if isinstance(fields, YamlMap) and entry.arguments.entries:
+        fields = fields.with_value("with", YamlMap(entry.arguments.entries, fields.span))
+    return YamlEntry(YamlScalar(entry.name, entry.name, entry.ref.span), fields)
 
 
 def _patched_entry(entry: ModuleEntry, fields: YamlNode, before: YamlNode, override: Override) -> ModuleEntry:
     """Return a module with the patched fields of its entry of `modules`."""
     if fields is before or not isinstance(fields, YamlMap):
         return entry
-    section = fields.get("with")
-    arguments = replace(entry.arguments, entries=section.entries if isinstance(section, YamlMap) else {})
-    return with_fields(replace(entry, arguments=arguments), _without_key(fields, "with"), override.sink)
+    arguments = replace(entry.arguments, entries=fields.section("with"))
+    return with_fields(replace(entry, arguments=arguments), fields.without("with"), override.sink)
 
 
 def _deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[tuple[str, Note]]:
@@ -262,18 +253,17 @@ def _deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[
 def _deleted_in(
     before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]
 ) -> Iterator[tuple[str, Note]]:
-    for section in sections:
-        entries, left = before.get(section), names_in_section(after, section)
-        for entry in entries if isinstance(entries, YamlMap) else ():
-            if entry.name in left:
-                continue
-            child = _text(entry.value, "child") if section in ("joints", "mount") else None
-            if where := _deletion(patch, section, entry.name):
-                yield entry.name, Note(f"'{entry.name}' is deleted by this override", where)
-            elif child and (where := _deletion(patch, "links", child)):
-                yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
-            else:
-                yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
+    deleted = ((section, entry) for section in sections for entry in before.section(section).values())
+    for section, entry in deleted:
+        if entry.name in after.section(section):
+            continue
+        child = _child_of(entry) if section in ("joints", "mount") else None
+        if where := _deletion(patch, section, entry.name):
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override", where)
+        elif child and (where := _deletion(patch, "links", child)):
+            yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
+        else:
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
 
 
 def _deletion(patch: YamlMap, section: str, name: str) -> Span | None:
@@ -287,54 +277,34 @@ def _without_links(tree: YamlMap, links: set[str]) -> YamlMap:
     """Return a tree without what refers to deleted links: joints to them, Gazebo blocks, collision pairs, spheres."""
     if not links:
         return tree
-    sections = dict(tree.entries)
-    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
     gone = set(links)
     for name in ("joints", "mount"):
-        if isinstance(joints := tree.get(name), YamlMap):
-            kept = [entry for entry in joints if _text(entry.value, "child") not in links]
-            gone |= joints.entries.keys() - {entry.name for entry in kept}
-            sections[name] = YamlEntry(sections[name].key, _map_of(kept, joints.span))
+        joints = tree.get(name)
+        if isinstance(joints, YamlMap):
+            kept = joints.only(lambda joint: _child_of(joint) not in links)
+            gone |= joints.entries.keys() - kept.entries.keys()
+            tree = tree.with_value(name, kept)
+    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
     if isinstance(gazebo, YamlList | YamlMap):
         blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
-        left = tuple(block for block in blocks if _text(block, "reference") not in gone)
-        sections["gazebo"] = YamlEntry(sections["gazebo"].key, YamlList(left, gazebo.span))
-    if isinstance(semantic, YamlMap):
-        sections["semantic"] = YamlEntry(sections["semantic"].key, _semantic_without(semantic, links))
-    return YamlMap(sections, tree.span)
-
-
-def _semantic_without(semantic: YamlMap, links: set[str]) -> YamlMap:
-    parts = dict(semantic.entries)
+        left = (one for one in blocks if not (isinstance(one, YamlMap) and one.text("reference") in gone))
+        tree = tree.with_value("gazebo", YamlList(tuple(left), gazebo.span))
+    if not isinstance(semantic, YamlMap):
+        return tree
     for name in ("disabled_collisions", "enabled_collisions", "link_sphere_approximations"):
         part = semantic.get(name)
         if isinstance(part, YamlMap):
-            kept = [entry for entry in part if entry.name not in links]
-            if name != "link_sphere_approximations":
-                kept = [YamlEntry(entry.key, _pairs_without(entry.value, links)) for entry in kept]
-            parts[name] = YamlEntry(parts[name].key, _map_of(kept, part.span))
-    return YamlMap(parts, semantic.span)
+            # The values of pairs are maps of links; those of spheres have other keys.
+            of_others = part.without(*links)
+            is_pairs = name != "link_sphere_approximations"
+            others = of_others.mapped(lambda one: _without_keys(one.value, links)) if is_pairs else of_others
+            semantic = semantic.with_value(name, others)
+    return tree.with_value("semantic", semantic)
 
 
-def _pairs_without(pairs: YamlNode, links: set[str]) -> YamlNode:
-    if not isinstance(pairs, YamlMap):
-        return pairs
-    return _map_of([entry for entry in pairs if entry.name not in links], pairs.span)
+def _without_keys(node: YamlNode, keys: set[str]) -> YamlNode:
+    return node.without(*keys) if isinstance(node, YamlMap) else node
 
 
-def _map_of(entries: list[YamlEntry], span: Span) -> YamlMap:
-    return YamlMap({entry.name: entry for entry in entries}, span)
-
-
-def _without_key(node: YamlMap, key: str) -> YamlMap:
-    return YamlMap({name: entry for name, entry in node.entries.items() if name != key}, node.span)
-
-
-def _with_section(node: YamlMap, name: str, section: YamlMap) -> YamlMap:
-    key = node.entries[name].key if name in node.entries else YamlScalar(name, name, section.span)
-    return YamlMap({**node.entries, name: YamlEntry(key, section)}, node.span)
-
-
-def _text(node: YamlNode, key: str) -> str | None:
-    value = node.child(key)
-    return value.text if isinstance(value, YamlScalar) else None
+def _child_of(joint: YamlEntry) -> str | None:
+    return joint.value.text("child") if isinstance(joint.value, YamlMap) else None

@@ -25,14 +25,19 @@ from linkforge_compile.expand.merge_objects import (
     long_form,
     long_object,
 )
+from linkforge_compile.expand.values import plain_value
+from linkforge_compile.expressions import Fault, Value
 from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape, alternatives, shapes
 from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import Quantity, parse_quantity
+from linkforge_compile.units import Quantity
 
 SECTIONS = ("links", "joints", "modules", "mount", "materials", "sensors", "transmissions", "ros2_control")
 """The sections whose entries have names that overrides refer to."""
+
+_GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
+_PROPERTIES = "properties"
 
 _MAX_SHOWN_NAMES = 8
 _AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
@@ -69,11 +74,6 @@ def apply_patch(override: Override, tree: YamlMap, deleted: DeletedNames) -> Yam
 def deletes(node: YamlNode) -> bool:
     """Whether a value in a patch is a written `null`, which deletes what it patches."""
     return isinstance(node, YamlScalar) and node.value is None and bool(node.text)
-
-
-def names_in_section(tree: YamlMap, section: str) -> Mapping[str, YamlEntry]:
-    entries = tree.get(section)
-    return entries.entries if isinstance(entries, YamlMap) else {}
 
 
 class _Patcher:
@@ -137,7 +137,9 @@ class _Patcher:
             return self.patch_map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape)
         if isinstance(new, YamlMap) and isinstance(old, YamlMap):
             return self.patch_map(old, new, shape)
-        if old is not None and _is_same(*(_comparable(one, field, shape) for one in (old, new))):
+        values = [plain_value(one) for one in (old, new) if one is not None]
+        comparable = [_comparable(value, field, shape) for value in values if not isinstance(value, Fault)]
+        if len(comparable) == 2 and comparable[0] == comparable[1]:
             self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
         return new
 
@@ -178,7 +180,7 @@ class _Patcher:
         hint = _nesting_hint(name, base, shape)
         if hint and isinstance(change.value, YamlFault):
             return  # the schema reported it with the same hint
-        if name in names_in_section(self._module, "mount") and shape is shapes().under("joints"):
+        if name in self._module.section("mount") and shape is shapes().under("joints"):
             self._report(MOUNT_IS_NO_JOINT, change)
             return
         notes = self._deleted.notes(name)
@@ -189,7 +191,7 @@ class _Patcher:
     def _names_hint(self, name: str, base: YamlMap, shape: Shape) -> str:
         """Return the section that has a missing name, else the existing names if none of them is similar."""
         for section in SECTIONS if any(shape is shapes().under(section) for section in SECTIONS) else ():
-            if name in names_in_section(self._module, section):
+            if name in self._module.section(section):
                 return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
         if not 0 < len(base.entries) <= _MAX_SHOWN_NAMES or nearest(name, base.entries):
             return ""
@@ -224,39 +226,26 @@ def _nesting_hint(name: str, base: YamlMap, shape: Shape) -> str:
     return f"; write '{nested([first, *steps], '…')}'" if is_path else ""
 
 
-def _comparable(node: YamlNode, field: str, shape: Shape) -> YamlNode:
-    """Return a node with its axis as numbers and its numbers in SI units, so that equal values compare equal.
+def _comparable(value: Value, field: str, shape: Shape) -> Value:
+    """Return a value with its axis as numbers and its numbers in SI units, so that equal values compare equal.
 
     A quantity stays one if its dimension is not that of the field, or if the field's depends on other fields, as a
     joint's velocity depends on the joint's type.
     """
-    if shape.is_free_part or (shape.is_text and field != "axis"):
-        return node
-    match node:
-        case YamlScalar(text=text) if field == "axis" and text.lstrip("-") in _AXES:
-            sign = -1 if text.startswith("-") else 1
-            numbers = tuple(sign * number for number in _AXES[text.lstrip("-")])
-            return YamlList(tuple(YamlScalar(str(number), number, node.span) for number in numbers), node.span)
-        case YamlScalar(value=str() as value) if quantity := parse_quantity(value):
-            return _comparable(YamlScalar(node.text, quantity, node.span), field, shape)
-        case YamlScalar(value=Quantity(value=value, dimension=dimension)) if dimension.si_unit == shape.unit:
-            return YamlScalar(node.text, value, node.span)
-        case YamlList():
-            return YamlList(tuple(_comparable(item, field, shape.item or shape) for item in node), node.span)
-    return node
-
-
-def _is_same(one: YamlNode, other: YamlNode) -> bool:
-    match one, other:
-        case YamlScalar(), YamlScalar():
-            return one.value == other.value and isinstance(one.value, bool) == isinstance(other.value, bool)
-        case YamlList(), YamlList():
-            return len(one) == len(other) and all(map(_is_same, one, other))
-        case YamlMap(), YamlMap():
-            return one.entries.keys() == other.entries.keys() and all(
-                _is_same(entry.value, other.entries[entry.name].value) for entry in one
-            )
-    return False
+    match value:
+        case bool():
+            return (str(value),)  # Python takes it for 0 or 1
+        case str() if field == "axis" and value.lstrip("-") in _AXES:
+            return tuple(-number if value.startswith("-") else number for number in _AXES[value.lstrip("-")])
+        case Quantity() if shape.is_free_part or shape.is_text:
+            return str(value)
+        case Quantity() if value.dimension.si_unit == shape.unit:
+            return value.value
+        case tuple():
+            return tuple(_comparable(item, field, shape.item or shape) for item in value)
+        case Mapping():
+            return {name: _comparable(item, name, FREE) for name, item in value.items()}
+    return value
 
 
 def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:
@@ -267,7 +256,7 @@ def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMa
     if shape.title not in _GAZEBO_BLOCKS:
         return block
     entries = dict(block.entries)
-    properties, patched = dict(names_in_section(block, _PROPERTIES)), names_in_section(patch, _PROPERTIES)
+    properties, patched = dict(block.section(_PROPERTIES)), patch.section(_PROPERTIES)
     keys = {_gazebo_tag(name): name for name in entries if _is_tag_key(shape, name)}
     for name in patch.entries:
         if _is_tag_key(shape, name) and (moved := properties.pop(_gazebo_tag(name), None)):
@@ -275,21 +264,12 @@ def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMa
     for tag in patched.keys() & keys.keys():
         moved = entries.pop(keys[tag])
         properties[tag] = YamlEntry(YamlScalar(tag, tag, moved.key.span), moved.value)
-    return YamlMap(_with_properties(entries, properties, block), block.span)
-
-
-def _with_properties(
-    entries: dict[str, YamlEntry], properties: dict[str, YamlEntry], block: YamlMap
-) -> dict[str, YamlEntry]:
-    section = block.entries.get(_PROPERTIES)
+    changed, section = YamlMap(entries, block.span), block.entries.get(_PROPERTIES)
     if section is not None and not isinstance(section.value, YamlMap):
-        return entries
-    others = {name: entry for name, entry in entries.items() if name != _PROPERTIES}
-    if not properties:
-        return others
-    key = section.key if section else YamlScalar(_PROPERTIES, _PROPERTIES, block.span)
+        return changed
+    changed = changed.without(_PROPERTIES)
     span = section.value.span if section else block.span
-    return {**others, _PROPERTIES: YamlEntry(key, YamlMap(properties, span))}
+    return changed.with_value(_PROPERTIES, YamlMap(properties, span)) if properties else changed
 
 
 def _is_tag_key(shape: Shape, name: str) -> bool:
@@ -299,9 +279,3 @@ def _is_tag_key(shape: Shape, name: str) -> bool:
 def _gazebo_tag(key: str) -> str:
     """Return the tag of a key, which has capitals in place of underscores: `max_vel` is `maxVel`."""
     return re.sub(r"_([a-z])", lambda found: found[1].upper(), key)
-
-
-_GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
-
-
-_PROPERTIES = "properties"

@@ -1,33 +1,56 @@
-"""Validate the tree of a spec and the places of its expressions; cache faultless trees."""
+"""Read the tree of a spec: validate it, merge the files of its `include`, and cache faultless trees."""
 
 from __future__ import annotations
 
-import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from threading import Lock
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.diagnostics.codes.modules import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
-from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import (
+    ENTRY_IN_TWO_FILES,
+    INCLUDE_CIRCLE,
+    INCLUDE_NOT_PLAIN,
+    INCLUDE_TOO_DEEP,
+    INCLUDED_TWICE,
+    SET_BY_MAIN_FILE,
+    TOO_MANY_INCLUDES,
+)
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.paths import follow
+from linkforge_compile.roots import identity
 from linkforge_compile.schema import validate
-from linkforge_compile.schema.json_schema import WORDS, LinkedSchema
-from linkforge_compile.schema.shapes import FREE, Shape, field, shapes
+from linkforge_compile.schema.json_schema import WORDS
+from linkforge_compile.schema.misplaced_expressions import check_expressions
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression, read
-from linkforge_compile.syntax.nodes import xacro_facts
-
-if TYPE_CHECKING:
-    from linkforge_compile.expressions import Expression
+from linkforge_compile.syntax import (
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    has_expression,
+    is_null,
+    read,
+)
 
 MAX_CACHED_CHARACTERS = 500_000
 """How many characters of text the cached trees may have together; the trees need up to 100 MB."""
 
-_CacheKey: TypeAlias = tuple[str, Path | None, int]
+MAX_DEPTH = 20
+MAX_INCLUDES = 200
+"""How many files one spec may include, directly and through other included files."""
+
+_MAIN_FILE_ONLY = ("name", "version", "description", "mount", "variants")
+_PER_FILE = ("linkforge", "include")
+_NESTED_SECTIONS = ("group_states", "disabled_collisions", "enabled_collisions", "joint_properties")
+
+_Place: TypeAlias = tuple[str, Path | None, int]
 """The name of a file, its path, and how many files were read before it."""
 
 
@@ -36,6 +59,7 @@ class _CachedTree:
 
     def __init__(self, source: SourceFile, tree: YamlMap, values: int) -> None:
         self.source, self.tree, self.values = source, tree, values
+        self.place: _Place = (source.name, source.path, source.order)
 
     @cached_property
     def is_computed(self) -> bool:
@@ -46,29 +70,29 @@ class _TreeCache:
     """The latest faultless tree of each place, the oldest dropped first; safe to share between threads."""
 
     def __init__(self) -> None:
-        self._trees: dict[_CacheKey, _CachedTree] = {}
+        self._trees: dict[_Place, _CachedTree] = {}
         self._characters = 0
         self._lock = Lock()
 
     def find(self, source: SourceFile) -> _CachedTree | None:
         """Return the cached tree of the same text at the same place, included by the same file."""
         with self._lock:
-            cached = self._trees.get(_cache_key(source))
+            cached = self._trees.get((source.name, source.path, source.order))
         is_same = cached and (cached.source.text, cached.source.included) == (source.text, source.included)
         return cached if is_same else None
 
     def add(self, cached: _CachedTree) -> None:
         """Cache a tree in the place of the one before; drop the oldest if there are too many."""
         with self._lock:
-            self._drop(_cache_key(cached.source))
+            self._drop(cached.place)
             if len(cached.source.text) > MAX_CACHED_CHARACTERS:
                 return
-            self._trees[_cache_key(cached.source)] = cached
+            self._trees[cached.place] = cached
             self._characters += len(cached.source.text)
             while self._characters > MAX_CACHED_CHARACTERS:
                 self._drop(next(iter(self._trees)))
 
-    def _drop(self, place: _CacheKey) -> None:
+    def _drop(self, place: _Place) -> None:
         dropped = self._trees.pop(place, None)
         self._characters -= len(dropped.source.text) if dropped else 0
 
@@ -88,14 +112,15 @@ def read_tree(source: SourceFile, sink: Diagnostics, budget: Budget) -> YamlMap 
     if cached and cached.source is source and cached.values <= budget.left(Limit.VALUES):
         budget.spend(Limit.VALUES, cached.values, source.whole)
         return cached.tree
-    values_before, watched = budget.left(Limit.VALUES), _WatchedSink(sink)
-    tree = read(source, watched, budget)
-    if tree is None:
-        return None
-    tree = validate(tree, watched, is_included=source.included is not None)
-    if may_need_context_check(source.text):
-        tree = check_context(tree, watched)
-    if watched.is_silent:
+    values_before, faults = budget.left(Limit.VALUES), Diagnostics()
+    try:
+        tree = read(source, faults, budget)
+        if tree is not None:
+            tree = validate(tree, faults, is_included=source.included is not None)
+            tree = check_expressions(source.text, tree, faults)
+    finally:
+        sink.report_all(faults)
+    if tree is not None and not any(True for _ in faults):
         _cache.add(_CachedTree(source, tree, values_before - budget.left(Limit.VALUES)))
     return tree
 
@@ -113,36 +138,8 @@ def _is_computed(source: SourceFile, tree: YamlMap) -> bool:
     return ExpressionScan().is_computed(YamlMap(own, tree.span))
 
 
-def _cache_key(source: SourceFile) -> _CacheKey:
-    return source.name, source.path, source.order
-
-
-class _WatchedSink(Diagnostics):
-    """Pass all diagnostics on, and remember whether there was one."""
-
-    def __init__(self, sink: Diagnostics) -> None:
-        super().__init__()
-        self.is_silent = True
-        self._sink = sink
-
-    def report(self, diagnostic: Diagnostic) -> None:
-        self.is_silent = False
-        self._sink.report(diagnostic)
-
-
-CONTEXT_PATTERN = re.compile(r"\bprefix\b(?!['\"]?\s*:)|\b(?:path|link|joint)[\s)]*\(|\$\{|[“„‘]")
-"""Matches every text that `expression_context` has to check; few specs have one."""
-
-_CONTEXT_MARKERS = ("$", "\\", "“", "„", "‘")
-"""Substrings, one of which is in every such text; searched first because the pattern is slow on long texts."""
-
 _FOR = re.compile(r"for\b")  # a word, because "effort" is in nearly every robot
 _COMPUTED_MARKERS = ("$(", "\\", *(word for word in WORDS if word != "for"))  # a backslash may escape any of them
-
-
-def may_need_context_check(text: str) -> bool:
-    """Return False if `expression_context` cannot find a fault in a spec with this text."""
-    return any(marker in text for marker in _CONTEXT_MARKERS) and CONTEXT_PATTERN.search(text) is not None
 
 
 def may_compute(text: str) -> bool:
@@ -175,146 +172,174 @@ class ExpressionScan:
         )
 
 
-_NAME_TITLES = frozenset({"a name", "a joint's name", "a material's name", "a joint value or a state's name"})
-"""The titles of schemas of names, which get the prefix automatically."""
-
-_PREFIXED_KEYS = frozenset({"topic", "frame", "prefix"})
-"""Keys of text that is not a name but gets the prefix automatically."""
-
-_NAME = Shape(LinkedSchema({"title": "a name", "type": "string"}))
-
-_MAPS_WITHOUT_PREFIX = frozenset({"interfaces by name", "folders by package name"})
-"""The titles of maps whose keys get no prefix."""
-
-_RAW_KEYS = frozenset({"extra", "extra_attributes", "extra_inside"})
-
-_PLUGIN_KEYS = frozenset({"filename", "hardware_plugin"})
-"""Keys of text that a simulator or controller manager looks up."""
-
-_PROSE_KEYS = frozenset({"description", "metadata"})
-
-_COMPUTING_SECTIONS = frozenset({"parameters", "variables", "data", "variants"})
-_COMPUTING_KEYS = frozenset({"with", "for", "when"})
-"""Sections, and keys of objects, whose values only the compiler reads; other places without a shape are free parts."""
+ReadIncluded = Callable[[Path, YamlScalar], tuple[SourceFile, YamlMap] | None]
+"""Reads the file at a path for an item of `include`; None after a reported error."""
 
 
-def check_context(tree: YamlMap, sink: Diagnostics) -> YamlMap:
-    """Report misplaced expressions; return the tree with YamlFaults in their place."""
-    checked = _Checker(sink).node(tree, _Place((), shapes()))
-    assert isinstance(checked, YamlMap), "only scalars are replaced"
-    return checked
+class ComposedFile(NamedTuple):
+    """A spec file with all that it includes.
+
+    `include_paths` has, for each included file, the paths that lead to it as written: that of the main file's
+    `include`, then that of the file it names, and so on. If a file could not be read, `include` of the tree is a
+    YamlFault.
+    """
+
+    file: SourceFile
+    tree: YamlMap
+    include_paths: Mapping[SourceFile, tuple[str, ...]] = MappingProxyType({})
 
 
-class _Place(NamedTuple):
-    """The path of keys to a node, its shape, and whether it lies in a free part or only serves to compute others."""
-
-    path: tuple[str | int, ...]
-    shape: Shape
-    is_free: bool = False
-    is_computed: bool = False
-
-    @property
-    def is_name(self) -> bool:
-        is_prefixed = bool(self.path) and self.path[-1] in _PREFIXED_KEYS and self.shape.word != ""
-        return not self.is_free and (self.shape.word in _NAME_TITLES or is_prefixed)
-
-    @property
-    def words(self) -> str:
-        return field(self.path)
-
-    def under(self, key: str) -> _Place:
-        """Return the place of the value of a key."""
-        # `value` of the long form holds what would otherwise be written here.
-        inner = self.shape if key == "value" and not self.shape.is_plain else self.shape.under(key)
-        computing = _COMPUTING_KEYS if self.path else _COMPUTING_SECTIONS
-        is_computed = self.is_computed or (key in computing and not self.is_free)
-        is_free = not is_computed and (self.is_free or inner.is_plain or key in _RAW_KEYS)
-        return _Place((*self.path, key), inner, is_free, is_computed)
-
-    def item(self, position: int) -> _Place:
-        """Return the place of an item of this list."""
-        return _Place((*self.path, position), self.shape.item or FREE, self.is_free, self.is_computed)
+def follow_includes(folder: Path, paths: tuple[str, ...]) -> Path:
+    """Return where a chain of include paths leads from the folder of the main file."""
+    path = folder
+    for step in paths:
+        path = follow(folder, step)
+        folder = path.parent
+    return path
 
 
-class _Checker:
-    """Walks the tree of one file."""
+def compose(
+    file: SourceFile, tree: YamlMap, folder: Path | None, read: ReadIncluded, sink: Diagnostics
+) -> ComposedFile:
+    """Merge what a file includes, recursively, into its tree; `folder` is where its relative paths start."""
+    composer = _Composer(file, tree, read, sink)
+    composer.add_includes(tree, _Chain((file,), folder))
+    return composer.result(file)
 
-    def __init__(self, sink: Diagnostics) -> None:
+
+class _Chain(NamedTuple):
+    """The files from the main file to one that includes others, and the folder and include paths of the last."""
+
+    files: tuple[SourceFile, ...]
+    folder: Path | None
+    include_paths: tuple[str, ...] = ()
+
+
+class _Composer:
+    """Builds one ComposedFile."""
+
+    def __init__(self, file: SourceFile, tree: YamlMap, read: ReadIncluded, sink: Diagnostics) -> None:
+        self._tree = tree
+        self._read = read
         self._sink = sink
+        self._include_paths: dict[SourceFile, tuple[str, ...]] = {}
+        self._known = {identity(file.path): file} if file.path else {}
+        self._is_limit_reported = False
+        self._is_incomplete = isinstance(tree.get("include"), YamlFault)
 
-    def node(self, node: YamlNode, place: _Place) -> YamlNode:
-        """Return a node with faults replaced; the same object if there are none."""
-        match node:
-            case YamlScalar():
-                return node if self._is_valid(node, place) else YamlFault(node.span)
-            case YamlList():
-                items = tuple(self.node(item, place.item(position)) for position, item in enumerate(node))
-                is_same = all(one is other for one, other in zip(items, node, strict=True))
-                return node if is_same else YamlList(items, node.span)
-            case YamlMap():
-                entries = {entry.name: self._entry(entry, place) for entry in node}
-                is_same = all(one is other for one, other in zip(entries.values(), node, strict=True))
-                return node if is_same else YamlMap(entries, node.span)
-        return node
+    def result(self, file: SourceFile) -> ComposedFile:
+        entries = dict(self._tree.entries)
+        include = entries.pop("include")
+        if self._is_incomplete:
+            entries["include"] = YamlEntry(include.key, YamlFault(include.value.span))
+        return ComposedFile(file, YamlMap(entries, self._tree.span), self._include_paths)
 
-    def _entry(self, entry: YamlEntry, around: _Place) -> YamlEntry:
-        if not around.path and entry.name.startswith("x-"):
-            return entry
-        place, shape = around.under(entry.name), around.shape
-        is_name = shape.has_names and shape.title not in _MAPS_WITHOUT_PREFIX and not shape.is_raw(entry.name)
-        if not self._is_valid(entry.key, place._replace(shape=_NAME if is_name else FREE)):
-            return YamlEntry(entry.key, YamlFault(entry.value.span))
-        value = self.node(entry.value, place)
-        return entry if value is entry.value else YamlEntry(entry.key, value)
+    def add_includes(self, tree: YamlMap, chain: _Chain) -> None:
+        """Merge the includes of the last file of a chain, in the order written."""
+        section = tree.get("include")
+        for item in section if isinstance(section, YamlList) else ():
+            if isinstance(item, YamlScalar) and self._may_follow(item, chain):
+                self._include(item, chain)
+            else:
+                self._is_incomplete = True
 
-    def _is_valid(self, scalar: YamlScalar, place: _Place) -> bool:
-        """Whether a scalar has nothing misplaced, which is reported."""
-        if not CONTEXT_PATTERN.search(scalar.text):
-            return True
-        from linkforge_compile.expressions import Expression, parse_template  # 45 ms, and few texts need it
+    def _include(self, item: YamlScalar, chain: _Chain) -> None:
+        path = follow(chain.folder or Path(), item.text)
+        included = None if self._is_known(path, item, chain) else self._read(path, item)
+        if included is None:
+            self._is_incomplete = True
+            return
+        file, tree = included
+        include_paths = (*chain.include_paths, item.text)
+        self._known[identity(path)], self._include_paths[file] = file, include_paths
+        self._is_incomplete |= isinstance(tree.get("include"), YamlFault)
+        self._tree = _merge_maps(self._tree, self._mergeable_part(tree), (), self._sink)
+        self.add_includes(tree, _Chain((*chain.files, file), path.parent, include_paths))
 
-        template = parse_template(scalar.text, scalar.span, Diagnostics()) if has_expression(scalar.text) else None
-        parts = template.parts if template else (scalar.text,)
-        expressions = [part for part in parts if isinstance(part, Expression)]
-        # Check all before deciding, so that each fault is reported.
-        names = [self._is_allowed(name, one, place) for one in expressions for name in _names_of(one)]
-        # A string inside of an expression is not checked: $('${HOME}') is how to write such text.
-        texts = [self._is_plain_text(part, scalar, place) for part in parts if isinstance(part, str)]
-        return all(names) and all(texts)
-
-    def _is_plain_text(self, text: str, scalar: YamlScalar, place: _Place) -> bool:
-        """Whether a text outside of expressions has no xacro syntax that matters there; reports it."""
-        is_prose = not _PROSE_KEYS.isdisjoint(place.path)
-        facts = () if is_prose else xacro_facts(text)
-        code = XACRO_IN_FREE_TEXT if place.is_free else XACRO_EXPRESSION
-        for each in facts:
-            self._sink.report(code.at(scalar.span, text=each["text"], ours=each["ours"]))
-        is_output = place.is_free or place.path[-1] in _PLUGIN_KEYS
-        if is_output and not is_prose and _is_in_curly_quotes(scalar):
-            self._sink.report(CURLY_QUOTES.at(scalar.span, text=scalar.text, ours=scalar.text[1:-1]))
-        return place.is_free or not facts
-
-    def _is_allowed(self, name: ast.Name, expression: Expression, place: _Place) -> bool:
-        span = expression.span(name)
-        match name.id:
-            case "prefix" if place.is_name:
-                self._sink.report(PREFIX_TWICE.at(span, place=place.words))
-                return False
-            case "link" | "joint" if not place.is_free:
-                self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()"))
-                return False
-            case "path" if not (place.is_computed or place.path[-1:] == ("use",)):
-                self._sink.report(PATH_OF_THIS_MACHINE.at(span))
+    def _is_known(self, path: Path, item: YamlScalar, chain: _Chain) -> bool:
+        """Whether the file was included before, which is reported."""
+        known = self._known.get(identity(path))
+        if known is None:
+            return False
+        if known in chain.files:
+            names = [Path(file.name).name for file in (*chain.files[chain.files.index(known) :], known)]
+            self._sink.report(INCLUDE_CIRCLE.at(item.span, path=" → ".join(names)))
+        else:
+            notes = [Note("included here first", known.included)]
+            self._sink.report(INCLUDED_TWICE.at(item.span, path=item.text, notes=notes))
         return True
 
+    def _may_follow(self, item: YamlScalar, chain: _Chain) -> bool:
+        """Whether an item is a usable path within the limits; reports why not."""
+        reason = _why_not_plain(item.text, chain.folder)
+        if reason:
+            self._sink.report(INCLUDE_NOT_PLAIN.at(item.span, path=item.text, reason=reason))
+        elif len(chain.files) > MAX_DEPTH:
+            self._sink.report(INCLUDE_TOO_DEEP.at(item.span, limit=MAX_DEPTH))
+        elif len(self._include_paths) < MAX_INCLUDES:
+            return True
+        elif not self._is_limit_reported:
+            self._is_limit_reported = True
+            self._sink.report(TOO_MANY_INCLUDES.at(item.span, limit=MAX_INCLUDES))
+        return False
 
-def _is_in_curly_quotes(scalar: YamlScalar) -> bool:
-    """Whether a plain text starts and ends with a word processor's quotes; in a quoted text they are intended."""
-    begins = (scalar.span.text or "").startswith(("“", "„", "‘"))
-    return begins and scalar.text.endswith(("”", "“", "’"))
+    def _mergeable_part(self, tree: YamlMap) -> YamlMap:
+        """Return an included tree without the keys that belong to the main file, which are reported, or to each."""
+        entries: dict[str, YamlEntry] = {}
+        for name, entry in tree.entries.items():
+            if name in _MAIN_FILE_ONLY:
+                self._sink.report(SET_BY_MAIN_FILE.at(entry.key.span, key=name))
+            elif name not in _PER_FILE and not name.startswith("x-"):
+                entries[name] = entry
+        return YamlMap(entries, tree.span)
 
 
-def _names_of(expression: Expression) -> Iterator[ast.Name]:
-    """Yield the names in an expression, those of functions too, in the order of the text."""
-    names = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Name))
-    return iter(sorted(names, key=lambda name: name.col_offset))
+def _merge_maps(first: YamlMap, second: YamlMap, path: tuple[str, ...], sink: Diagnostics) -> YamlMap:
+    """Return the entries of two maps of entries, those of the first in front; duplicates are reported."""
+    entries = dict(first.entries)
+    for entry in second:
+        ours, inner = entries.get(entry.name), (*path, entry.name)
+        if ours is None or (_is_section(inner) and is_null(ours.value)):
+            entries[entry.name] = entry
+        elif not (_is_section(inner) and is_null(entry.value)):
+            entries[entry.name] = YamlEntry(ours.key, _merge_entries(ours, entry, inner, sink))
+    return YamlMap(entries, first.span)
+
+
+def _merge_entries(first: YamlEntry, second: YamlEntry, path: tuple[str, ...], sink: Diagnostics) -> YamlNode:
+    ours, theirs = first.value, second.value
+    if isinstance(ours, YamlFault) or isinstance(theirs, YamlFault):
+        return YamlFault(ours.span)
+    if _is_section(path) and isinstance(ours, YamlMap) and isinstance(theirs, YamlMap):
+        return _merge_maps(ours, theirs, path, sink)
+    if path == ("gazebo",) or (isinstance(ours, YamlList) and isinstance(theirs, YamlList)):
+        # A single block may be written for a list of one.
+        both = [node.items if isinstance(node, YamlList) else (node,) for node in (ours, theirs)]
+        return YamlList((*both[0], *both[1]), ours.span)
+    *sections, name = path
+    entry = f"'{name}' of '{sections[-1]}'" if sections else f"'{name}'"
+    notes = [Note("the other is here", first.key.span)]
+    sink.report(ENTRY_IN_TWO_FILES.at(second.key.span, entry=entry, notes=notes))
+    return ours
+
+
+def _is_section(path: tuple[str, ...]) -> bool:
+    """Whether the map at a path of keys is a section, whose entries may come from several files."""
+    match path:
+        case () | (_,) | ("semantic", _):
+            return path not in {("extra",), ("gazebo",)}
+        case ("semantic", section, _):
+            return section in _NESTED_SECTIONS
+    return False
+
+
+def _why_not_plain(path: str, folder: Path | None) -> str | None:
+    if has_expression(path):
+        return "without expressions"
+    if "://" in path:
+        return "relative to this one"
+    if not path or "\0" in path:
+        return "and this is none"
+    if folder is None and not Path(path).is_absolute():
+        return "and this text lies in no folder that it could be relative to"
+    return None

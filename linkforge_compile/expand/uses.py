@@ -9,19 +9,16 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
-from linkforge_compile.expand.files import follow
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.paths import Package, find_package, follow, unknown_package
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
-
-if TYPE_CHECKING:
-    from linkforge_compile.expand.files import Package
 
 SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
@@ -103,8 +100,6 @@ def _locate_in_package(site: PathSite, path: str, loader: Loader, sink: Diagnost
     match = _PACKAGE_PATH.fullmatch(path)
     if match is None:
         return _report_unusable(site, "it takes the form package://NAME/PATH", sink)
-    from linkforge_compile.expand.files import Package, find_package, unknown_package
-
     name, start, roots = match[1], site.user.folder, loader.roots
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, start, roots)
@@ -124,18 +119,17 @@ def _report_unusable(site: PathSite, reason: str, sink: Diagnostics) -> Target |
 FindMesh: TypeAlias = Callable[[str, Span, Diagnostics], Path | None]
 """Returns where the mesh with the path written at a place should be; None after a reported error."""
 
-MakeSite: TypeAlias = Callable[[str, Span], PathSite]
-"""Makes the site of a path that is written at a place."""
+Writers: TypeAlias = Mapping[SourceFile, tuple[SpecFile, Mapping[str, Path]]]
+"""By each file that may have written a path of one use: the file as reached, and the package folders known there."""
 
 
-def mesh_finder(sites: Mapping[SourceFile, MakeSite], loader: Loader) -> FindMesh:
-    """Return what finds the meshes of one use; `sites` has every file that may have written their paths."""
+def mesh_finder(writers: Writers, loader: Loader) -> FindMesh:
+    """Return what finds the meshes of one use."""
 
     def find(path: str, where: Span, sink: Diagnostics) -> Path | None:
-        make = sites.get(where.file)
-        if make is None:
+        if where.file not in writers:
             return no_mesh(path, where, sink)
-        site = make(path, where)
+        site = PathSite(path, where, *writers[where.file])
         target = locate(site, loader, sink)
         return target.path if target and loader.may_read(target.path, site.used, sink) else None
 
@@ -283,16 +277,12 @@ def joint_name_of(module: str, fields: Located) -> str:
 
 def robot_part(tree: YamlMap) -> YamlMap:
     """Return the sections that describe the robot, without those that only compute it and `x-` keys."""
-    entries = {
-        name: entry for name, entry in tree.entries.items() if name not in COMPUTING and not name.startswith("x-")
-    }
-    return YamlMap(entries, tree.span)
+    return tree.only(lambda section: section.name not in COMPUTING and not section.name.startswith("x-"))
 
 
 def own_name(tree: YamlMap) -> str:
     """Return the name that a file gives to its robot, "" for none."""
-    name = tree.get("name")
-    return name.text if isinstance(name, YamlScalar) else ""
+    return tree.text("name") or ""
 
 
 def charge_entries(tree: YamlMap, uses: int, budget: Budget, use: Span | None = None) -> None:
@@ -308,6 +298,5 @@ def charge_entries(tree: YamlMap, uses: int, budget: Budget, use: Span | None = 
 
 def _collision_pairs(tree: YamlMap) -> int:
     semantic = tree.get("semantic")
-    sections = [semantic.get(name) for name in _PAIRS] if isinstance(semantic, YamlMap) else []
-    links = [entry.value for section in sections if isinstance(section, YamlMap) for entry in section]
-    return sum(len(others) for others in links if isinstance(others, YamlMap))
+    links = (semantic.section(name).values() for name in _PAIRS) if isinstance(semantic, YamlMap) else ()
+    return sum(len(link.value) for section in links for link in section if isinstance(link.value, YamlMap))

@@ -22,6 +22,7 @@ from linkforge_compile.expressions import (
     passed_on,
     seen_from_compiled,
 )
+from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import Key, Origin, Span, TracedSpan
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import (
@@ -73,15 +74,17 @@ def _scalar(value: ScalarValue, span: Span) -> YamlScalar:
     return YamlScalar(as_text(value) or "", value, span)
 
 
-def with_final_paths(value: Value) -> Value:
-    """Return a value for text that the compiler does not read, with paths as the compiled file would write them."""
+def with_final_paths(value: Value, shape: Shape, is_free: bool) -> Value:
+    """Return a value whose paths in free parts are as the compiled file would write them; no later stage sees them."""
+    is_free = is_free or shape.is_free_part or shape.is_xml
     match value:
-        case str():
+        case str() if is_free:
             return seen_from_compiled(value)
-        case tuple():
-            return tuple(map(with_final_paths, value))
         case Mapping():
-            return {name: with_final_paths(item) for name, item in value.items()}
+            return {name: with_final_paths(item, shape.under(name), is_free) for name, item in value.items()}
+        case tuple() if is_free or shape.item:
+            item_shape = shape.item or FREE
+            return tuple(with_final_paths(item, item_shape, is_free) for item in value)
     return value
 
 

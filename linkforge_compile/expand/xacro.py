@@ -24,10 +24,10 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.files import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import Fault
+from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity
@@ -42,24 +42,16 @@ FORBIDDEN = "LINKFORGE_NO_XACRO"
 
 
 class Expansion(NamedTuple):
-    """The expanded text of a xacro file; `moved` gives its elements the places where they were written.
+    """The text of a xacro file as expanded, or that of another XML file.
 
-    `files` are the files in which they were written, the first one first, and the text itself. `arguments` are the
-    names of the arguments that the file uses.
+    `files` are the files in which its elements were written, the named one first, and the text itself; `moved` gives
+    them their places there, None if they stay where they are. `arguments` are the names of those that the file uses.
     """
 
     text: SourceFile
-    moved: Move
     files: tuple[SourceFile, ...]
-    arguments: frozenset[str]
-
-
-class XacroRobot(NamedTuple):
-    """The robot read from an expanded xacro file, and the files in which it was written, the first one first."""
-
-    imported: Imported
-    file: SourceFile
-    others: tuple[SourceFile, ...]
+    moved: Move | None = None
+    arguments: frozenset[str] = frozenset()
 
 
 def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | None:
@@ -67,13 +59,19 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     robot = read_xacro(use, loader, sink)
     if robot is None:
         return None
-    tree, folder = robot.imported.tree, use.path.parent
-    included = {file: SpecFile(file, tree, folder, use.package) for file in robot.others}
-    return SpecFile(robot.file, tree, folder, use.package, included, use.packages or {})
+    (main, *others), imported = robot
+    tree, folder = imported.tree, use.path.parent
+    included = {file: SpecFile(file, tree, folder, use.package) for file in others}
+    return SpecFile(main, tree, folder, use.package, included, use.packages or {})
 
 
-def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refused: bool = False) -> XacroRobot | None:
-    """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error."""
+def read_xacro(
+    use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refused: bool = False
+) -> tuple[tuple[SourceFile, ...], Imported] | None:
+    """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error.
+
+    Returns the files in which the robot was written, the named one first, and the robot.
+    """
     from linkforge_compile.importers.urdf import read_urdf
 
     expansion = expand_xacro(use, loader, sink)
@@ -81,8 +79,7 @@ def read_xacro(use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refuse
         return None
     inside = with_use_trace(sink, (use.used.where,))
     imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused)
-    main, *others = expansion.files
-    return XacroRobot(imported, main, tuple(others)) if imported else None
+    return (expansion.files, imported) if imported else None
 
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
@@ -110,7 +107,7 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
     files = (main, *written.files, expanded)
     moved = partial(moved_back, find=written.element)
-    return Expansion(expanded, moved, files, frozenset((*result.arguments, *result.wanted)))
+    return Expansion(expanded, files, moved, frozenset((*result.arguments, *result.wanted)))
 
 
 def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:

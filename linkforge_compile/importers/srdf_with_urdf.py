@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Protocol, TypeVar
 
+from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.document import Comments, Imported, Move, read_document
@@ -29,23 +29,13 @@ _NAMED_BY_NAME = ("link", "joint", "passive_joint")
 """Tags whose attribute `name` names a link or joint."""
 
 
-class Checked(Protocol):
-    """The result of checking a spec, with its errors."""
-
-    @property
-    def faults(self) -> tuple[Diagnostic, ...]: ...
-
-
-C = TypeVar("C", bound=Checked)
-
-
 def with_srdf(
     urdf: Imported,
     file: SourceFile,
-    check: Callable[[YamlMap], C],
+    check: Callable[[YamlMap], Compilation],
     sink: Diagnostics,
     moved: Move | None = None,
-) -> tuple[Imported, C] | None:
+) -> tuple[Imported, Compilation] | None:
     """Return the spec of a URDF with the content of an SRDF, and the result of `check`; None if it is no SRDF."""
     document = read_document(file, sink, moved)
     if document is None:
@@ -61,7 +51,7 @@ def with_srdf(
         round_sink = Diagnostics()
         whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
         checked = check(whole.tree)
-        found = _refusals(document, checked.faults)
+        found = _refusals(document, checked.diagnostics)
         if found.keys() <= refused.keys():
             break
         refused |= found

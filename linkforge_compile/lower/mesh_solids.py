@@ -22,20 +22,14 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.expand.files import (
-    TooLargeError,
-    UnreadableError,
-    as_typed,
-    misspelt_part,
-    path_base,
-    read_bytes,
-    searched_note,
-)
 from linkforge_compile.expand.loader import with_use_trace
 from linkforge_compile.expand.uses import FindMesh
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.paths import as_typed, misspelt_part, path_base, searched_note
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source.characters import UnreadableError
+from linkforge_compile.source.read_file import TooLargeError, read_bytes
 from linkforge_compile.syntax.nodes import YamlScalar
 
 if TYPE_CHECKING:

@@ -28,12 +28,12 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.files import path_base
 from linkforge_compile.expand.uses import from_base, no_mesh
 from linkforge_compile.lower.elements import extras_of, lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lower.numbers import EXTENT, FRACTION, NumberType
+from linkforge_compile.paths import path_base
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar

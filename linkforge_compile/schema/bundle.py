@@ -7,10 +7,12 @@ tests/editor holds the completions of yaml-language-server.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 
 from linkforge_compile.schema.json_schema import LONG_FORM, Json, Schema, branches, is_list, mapping, reference
 from linkforge_compile.schema.registry import IDENTIFIER, ROOT, definitions, definitions_with_patches
+from linkforge_compile.units import UNITS, pattern_of
 
 
 def bundle() -> Schema:
@@ -42,6 +44,8 @@ class _EditorForm:
         if is_needed and reference(schema) is not None and not self._is_section(self._target(schema)):
             schema = self._target(schema)  # in its own definition it may be empty
         whole = {key: self._parts(key, part, is_needed, is_patch) for key, part in schema.items()}
+        if units := _UNITS_OF_A_NUMBER.search(str(schema.get("patternErrorMessage"))):
+            whole["pattern"] = _pattern_with_units(str(schema["pattern"]), units[1].split(" or "))
         listed = _kinds(schema)
         is_whole = listed == [None] or "null" in listed or "enum" in schema or schema.get("title") == LONG_FORM
         if not is_whole and (self._is_section(schema) or not is_needed):
@@ -112,6 +116,17 @@ class _EditorForm:
         name = reference(schema)
         own = {key: part for key, part in schema.items() if key != "$ref"}
         return own if name is None else {**self._target(self._definitions[name]), **own}
+
+
+_UNITS_OF_A_NUMBER = re.compile(r"a number \[([^]]+)\]")
+"""The SI units of a bare number in the message about a quantity: "kg", or "N*m or N"."""
+
+_ANY_UNIT = "[A-Za-zµμ°]\\S*"
+
+
+def _pattern_with_units(pattern: str, si_units: list[str]) -> str:
+    """Return the pattern of a quantity with the units of its dimensions, where our schemas accept any word."""
+    return pattern.replace(_ANY_UNIT, f"(?:{pattern_of(UNITS[unit].dimension for unit in si_units)})")
 
 
 _EMPTY: Schema = {"if": {"type": ["null"]}, "else": False}

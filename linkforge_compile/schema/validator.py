@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import COMPUTED_REPETITION
 from linkforge_compile.schema.registry import HEADER, accepts, linked
-from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.schema.shapes import FREE, Shape, shapes
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
-
-if TYPE_CHECKING:
-    from linkforge_compile.schema.shapes import Shape
 
 
 def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> YamlMap:
@@ -32,8 +31,13 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
 def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
     """Validate a map or list that an expression made, as if it were written under `key`; see `validate`.
 
-    Its own kind and length are not checked here but, as for any computed value, where it is read.
+    Its own kind and length are not checked here but, as for any computed value, where it is read; so are scalars.
     """
+    if not isinstance(node, YamlMap | YamlList) or not shape.schema or shape.is_free_part:
+        return node
+    if word := next(_computed_words(node, shape), None):
+        sink.report(COMPUTED_REPETITION.at(node.span, name=word))
+        return YamlFault(node.span)
     written = _with_units(node)
     if accepts(shape.schema, written):
         return node
@@ -54,11 +58,9 @@ def _may_lack_section_line(tree: YamlMap) -> bool:
     An indented line is an entry without a value, and a frame among the joints has no child.
     """
     at_top, semantic = _empty_entries(tree), _empty_entries(tree.get("semantic"))
-    if at_top or semantic:
-        from linkforge_compile.schema.shapes import shapes
-
-        if not (at_top.isdisjoint(shapes().keys) and semantic.isdisjoint(shapes().under("semantic").keys)):
-            return True
+    sections = shapes().keys, shapes().under("semantic").keys
+    if not (at_top.isdisjoint(sections[0]) and semantic.isdisjoint(sections[1])):
+        return True
     joints = tree.get("joints")
     last = [entry.value for entry in joints][-1:] if isinstance(joints, YamlMap) else []
     return any(isinstance(joint, YamlMap) and "child" not in joint.entries for joint in last)
@@ -81,3 +83,16 @@ def _with_units(node: YamlNode) -> YamlNode:
         case YamlScalar(value=Quantity() as quantity):
             return YamlScalar(str(quantity), str(quantity), node.span)
     return node
+
+
+def _computed_words(node: YamlNode, shape: Shape) -> Iterator[str]:
+    """Yield each computed `for` and `when` that would repeat something had it been written out."""
+    match node:
+        case YamlList():
+            for item in node:
+                yield from _computed_words(item, shape.item or (shape if shape.is_object else FREE))
+        case YamlMap() if not shape.is_plain:
+            for entry in node:
+                if entry.name in ("for", "when") and not shape.has_names:
+                    yield entry.name
+                yield from _computed_words(entry.value, shape.under(entry.name))

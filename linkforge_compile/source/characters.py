@@ -52,8 +52,8 @@ _WAY_OUT = (
 )
 
 
-class EncodingError(Exception):
-    """The bytes are not in the encoding that they declare; `undecoded` is the error at the first wrong byte."""
+class UnreadableError(Exception):
+    """Bytes that cannot be read as text; `undecoded` is the error at the first wrong byte, None for other reasons."""
 
     def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
         self.undecoded = undecoded
@@ -67,11 +67,30 @@ def begins_xml(data: bytes | str) -> bool:
     return _BEGINS.match(data) is not None
 
 
+def text_of(data: bytes) -> str:
+    """Return the text of a file: XML in the encoding that it declares, anything else in UTF-8.
+
+    Raises:
+        UnreadableError: if the bytes are not in the encoding.
+
+    """
+    if begins_xml(data):
+        return xml_text(data)
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise UnreadableError("it is UTF-16, as PowerShell writes; save it as UTF-8") from error
+        line = data.count(b"\n", 0, error.start) + 1
+        reason = f"it is not UTF-8: line {line} has the byte {data[error.start]:#04x}; save it as UTF-8"
+        raise UnreadableError(reason, error) from error
+
+
 def xml_text(data: bytes) -> str:
     """Return the text of an XML file without byte order mark; UTF-8 if the file declares no encoding.
 
     Raises:
-        EncodingError: if the bytes are not in the encoding.
+        UnreadableError: if the bytes are not in the encoding.
 
     """
     for mark, encoding in _MARKS:
@@ -81,7 +100,7 @@ def xml_text(data: bytes) -> str:
     encoding = declared[1].decode("ascii") if declared else "utf-8"
     if encoding.lower() in _TWO_BYTES:
         # Each letter of the declaration was one byte.
-        raise EncodingError(f"it declares the encoding {encoding}, which it is not in; write encoding='utf-8'")
+        raise UnreadableError(f"it declares the encoding {encoding}, which it is not in; write encoding='utf-8'")
     return _decoded(data, encoding)
 
 
@@ -91,10 +110,10 @@ def _decoded(data: bytes, encoding: str) -> str:
     except LookupError:
         known = ""
     if known not in _KNOWN:
-        raise EncodingError(f"there is no encoding '{encoding}' of text here")
+        raise UnreadableError(f"there is no encoding '{encoding}' of text here")
     try:
         return data.decode(known)
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         reason = f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}; {_WAY_OUT}"
-        raise EncodingError(reason, error) from error
+        raise UnreadableError(reason, error) from error

@@ -140,6 +140,33 @@ class YamlMap:
         value = entry.value
         return None if isinstance(value, YamlScalar) and value.value is None else value
 
+    def section(self, key: str) -> Mapping[str, YamlEntry]:
+        """Return the entries of the map under `key`; none if there is no map."""
+        value = self.child(key)
+        return value.entries if isinstance(value, YamlMap) else {}
+
+    def text(self, key: str) -> str | None:
+        """Return the text of the scalar under `key`; None if there is none or it is null."""
+        value = self.get(key)
+        return value.text if isinstance(value, YamlScalar) else None
+
+    def with_value(self, key: str, value: YamlNode) -> YamlMap:
+        """Return the map with another value under `key`; a new key comes last, at the place of the value."""
+        known = self.entries.get(key)
+        entry = YamlEntry(known.key if known else YamlScalar(key, key, value.span), value)
+        return YamlMap({**self.entries, key: entry}, self.span)
+
+    def only(self, keep: Callable[[YamlEntry], bool]) -> YamlMap:
+        """Return the map without the entries that `keep` refuses."""
+        return YamlMap({name: entry for name, entry in self.entries.items() if keep(entry)}, self.span)
+
+    def without(self, *keys: str) -> YamlMap:
+        return self.only(lambda entry: entry.name not in keys)
+
+    def mapped(self, change: Callable[[YamlEntry], YamlNode]) -> YamlMap:
+        """Return the map with the values that `change` returns."""
+        return YamlMap({one.name: YamlEntry(one.key, change(one)) for one in self}, self.span)
+
     def child(self, key: str | int) -> YamlNode | None:
         entry = self.entries.get(str(key))
         return entry.value if entry else None

@@ -27,7 +27,16 @@ from linkforge_compile.units.quantity import (
     number_text,
     unit_of,
 )
-from linkforge_compile.units.table import UNITS, Unit, parse_quantity, spellings_of, suggested_unit, unit_text, units_of
+from linkforge_compile.units.table import (
+    UNITS,
+    Unit,
+    parse_quantity,
+    pattern_of,
+    spellings_of,
+    suggested_unit,
+    unit_text,
+    units_of,
+)
 
 __all__ = [
     "ANGLE",
@@ -57,6 +66,7 @@ __all__ = [
     "is_in_full",
     "number_text",
     "parse_quantity",
+    "pattern_of",
     "spellings_of",
     "suggested_unit",
     "unit_of",

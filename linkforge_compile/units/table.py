@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -186,3 +187,18 @@ def spellings_of(unit: str) -> tuple[str, ...]:
 def units_of(dimension: Dimension) -> tuple[str, ...]:
     """Return the units of one dimension, SI first."""
     return tuple(unit.name for unit in _TABLE if unit.dimension is dimension)
+
+
+def pattern_of(dimensions: Iterable[Dimension]) -> str:
+    """Return a regular expression of all accepted spellings of the units of some dimensions, also for ECMAScript."""
+    names = [name for dimension in dimensions for name in units_of(dimension)]
+    spellings = [spelling for name in names for spelling in (name, *spellings_of(name))]
+    return "|".join(_POWER.sub(_power_pattern, spelling.replace("*", "[*·⋅]")) for spelling in spellings)
+
+
+_POWER = re.compile(r"\^([23])")
+_SUPERSCRIPTS = {"2": "²", "3": "³"}
+
+
+def _power_pattern(power: re.Match[str]) -> str:
+    return rf"(?:(?:\^|\*\*){power[1]}|{_SUPERSCRIPTS[power[1]]})"

@@ -418,7 +418,7 @@ def test_standard_input_that_is_not_text_is_reported(pendulum: Path):
     command = f"printf '\\377\\376' | {sys.executable} -m linkforge_compile compile -"
     run = subprocess.run(command, shell=True, cwd=pendulum, capture_output=True, text=True, check=False, timeout=60)
     assert run.returncode == 2
-    assert "standard input is not UTF-8" in run.stderr
+    assert "standard input cannot be read: it is UTF-16" in run.stderr
 
 
 def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp_path_factory: pytest.TempPathFactory):

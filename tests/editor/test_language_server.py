@@ -309,6 +309,22 @@ FAULTS = {
         "links: {base: {inertial: {mass: heavy}}}",
         [("heavy", "expected a number [kg] or a quantity such as '3 kg'")],
     ),
+    "a unit of another dimension": (
+        "links: {base: {inertial: {mass: 3 mm}}}",
+        [("3 mm", "expected a number [kg] or a quantity such as '3 kg'")],
+    ),
+    "a unit of another dimension in a vector": (
+        "joints: {elbow: {origin: {xyz: [0, 0, 90 deg]}}}",
+        [("90 deg", "expected a number [m] or a quantity such as '25 mm'")],
+    ),
+    "a misspelt unit": (
+        "joints: {elbow: {limits: {lower: -90 degrees}}}",
+        [("-90 degrees", "expected a number [rad or m] or a quantity such as '90 deg' or '40 mm'")],
+    ),
+    "a product and a power": (
+        "links: {base: {inertial: {mass: 3kg, inertia: {ixx: 1 g·cm², iyy: 1 kg*m**2, izz: 1e-3 kg*cm^2}}}}",
+        [],
+    ),
     "no word": (
         "joints: {elbow: {axis: up}}",
         [("up", 'Value is not accepted. Valid values: "x", "y", "z", "-x", "-y", "-z".')],

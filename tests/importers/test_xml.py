@@ -9,7 +9,7 @@ from linkforge_compile.importers import xml as reader
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.characters import EncodingError, xml_text
+from linkforge_compile.source.characters import UnreadableError, xml_text
 from linkforge_compile.source.xml_tree import XmlComment, XmlElement
 
 
@@ -168,7 +168,7 @@ def test_a_file_is_read_in_its_declared_encoding(data: bytes, name: str):
     ],
 )
 def test_bytes_that_are_no_text_are_refused(data: bytes, reason: str):
-    with pytest.raises(EncodingError, match=reason):
+    with pytest.raises(UnreadableError, match=reason):
         xml_text(data)
 
 

@@ -1,6 +1,7 @@
 """Units: what people write after a number, converted without loss, and numbers back as text."""
 
 import math
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -14,6 +15,8 @@ from linkforge_compile.units import (
     Quantity,
     number_text,
     parse_quantity,
+    pattern_of,
+    spellings_of,
     suggested_unit,
     unit_text,
     units_of,
@@ -147,3 +150,17 @@ def test_a_word_for_a_unit_is_known_and_not_taken(word: str, unit: str):
 
 def test_no_unit_is_a_word_for_another():
     assert [unit for unit in UNITS if suggested_unit(unit)] == []
+
+
+SPELLINGS = {spelling for name in UNITS for spelling in (name, *spellings_of(name))}
+WRITTEN = [
+    spelling.replace("*", product).replace("^2", square).replace("^3", cube)
+    for spelling in sorted(SPELLINGS)
+    for product, square, cube in (("*", "^2", "^3"), ("·", "²", "³"), ("⋅", "**2", "**3"))
+]
+
+
+@pytest.mark.parametrize("dimension", Dimension)
+def test_the_pattern_of_a_dimension_matches_its_units_and_no_other(dimension: Dimension):
+    matched = {unit for unit in [*WRITTEN, "parsec", "kg*m2", "m m", ""] if re.fullmatch(pattern_of([dimension]), unit)}
+    assert matched == {unit for unit in WRITTEN if parse_quantity(f"1 {unit}").dimension is dimension}

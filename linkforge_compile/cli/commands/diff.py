@@ -3,42 +3,31 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import groupby
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
-from linkforge_compile.cli.options import (
-    STDIN,
-    add_spec_options,
-    compile_spec,
-    is_xml,
-    name_set_by,
-    packages_of,
-    read_unseekable,
-    require_file,
-    split_assignments,
-)
-from linkforge_compile.cli.reports import add_report_options, errors_of, report
-from linkforge_compile.source.characters import on_one_line
+from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
+from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.reports import add_report_options
 
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.cli.git_tree import GitTree
     from linkforge_compile.compare import Difference, RemovedName
-    from linkforge_compile.core import Robot
 
 DIFFERENT, NO_ROBOT = 1, 2
 """The exit codes of diff(1): 0 for no difference, 2 for trouble."""
-
-_SIDES = ("before", "after")
 
 _EXAMPLES = """\
 A and B are specs, URDFs of any name or xacros. `-p` sets a parameter of each robot that has it, and `--variant` that of
 specs; `--before` and `--after` set one of A or B alone, and have precedence. A spec is compared with a URDF as the URDF
 that it compiles to. The semantic part of a URDF is its SRDF, given by `--before-srdf` and `--after-srdf`; without one
 that part is not compared, and the output says so. Only errors are reported; use `linkforge check` for the rest.
+With `--git`, A and all that it includes are read as they are in a revision, from the repository that holds A; B may be
+left out if it is the same file, as with `--before-package` and `--after-package`.
 Exit codes: 0 for the same robot, 1 for a different one, 2 for wrong usage and for an input that is no robot.
 
 examples:
@@ -47,13 +36,15 @@ examples:
   linkforge diff arm.urdf.xacro arm.robot.yaml --before reach:=0.7 --tolerance 1e-9
   linkforge diff arm.robot.yaml arm.robot.yaml --before reach=0.7m --after reach=0.9m
   linkforge diff arm.robot.yaml arm.robot.yaml --after-variant sim
+  linkforge diff arm.robot.yaml --git HEAD~1            as it was in a revision of its git repository, and as it is
+  linkforge diff arm.robot.yaml --before-package ur_description=../ur_description_2.1
   linkforge diff old.urdf new.urdf --json
   xacro arm.urdf.xacro | linkforge diff - arm.robot.yaml
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge diff [options] A B [NAME:=VALUE ...]"
+    parser.usage = "linkforge diff [options] A [B] [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words", metavar="A B", nargs="+", help="the robot before and the one after; - for standard input"
@@ -66,13 +57,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="T",
         help="equal are poses within T metres and T radians, and other numbers within the relative error T (1e-6)",
     )
-    for side in _SIDES:
+    parser.add_argument("--git", metavar="REV", help="read A as of this revision of git, such as HEAD~1 or a branch")
+    for side in SIDES:
         parser.add_argument(
             f"--{side}",
             metavar="NAME=VALUE",
             action="append",
             default=[],
             help=f"set a parameter of the robot {side} alone",
+        )
+        parser.add_argument(
+            f"--{side}-package",
+            metavar="NAME=PATH",
+            action="append",
+            default=[],
+            help=f"the folder of package://NAME/ for the robot {side} alone",
         )
         parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
         parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
@@ -92,43 +91,6 @@ def _tolerance(text: str) -> float:
     return tolerance
 
 
-class _Side(NamedTuple):
-    """One of the two robots as the command line gives it.
-
-    `assignments` and the variant are those of this side alone. `text` is the content of standard input or a pipe, None
-    for a file.
-    """
-
-    word: str
-    assignments: Sequence[str]
-    variant: str | None
-    srdf: str | None
-    text: str | None
-    is_urdf: bool
-
-    @property
-    def parameters(self) -> dict[str, str]:
-        return {name_set_by(pair): pair.partition("=")[2] for pair in self.assignments}
-
-    @property
-    def label(self) -> str:
-        """The name in a heading, with the settings of this side: `arm.robot.yaml (reach=0.7m)`."""
-        settings = [f"variant {self.variant}"] if self.variant else []
-        settings += [f"{name}={value}" for name, value in self.parameters.items()]
-        settings += [self.srdf] if self.srdf else []
-        return on_one_line(f"{self.word} ({', '.join(settings)})" if settings else self.word)
-
-    @property
-    def parameter_files(self) -> list[str]:
-        """The files that may declare parameters: a spec, or the xacros of a URDF and an SRDF."""
-        files = [self.word] if not self.is_urdf or _is_xacro(self.word) else []
-        return [*files, self.srdf] if self.srdf and _is_xacro(self.srdf) else files
-
-    @property
-    def has_semantic(self) -> bool:
-        return not self.is_urdf or self.srdf is not None
-
-
 class _Comparison(NamedTuple):
     """What differs between two robots.
 
@@ -136,7 +98,7 @@ class _Comparison(NamedTuple):
     `not_read_back` is the reason why a spec was compared as it is written, if it was.
     """
 
-    sides: Sequence[_Side]
+    sides: Sequence[Side]
     tolerance: float
     is_semantic_missed: bool
     not_read_back: str | None
@@ -146,16 +108,33 @@ class _Comparison(NamedTuple):
 
 def run(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
+    if arguments.git is not None and words[:1] == ["-"]:
+        raise UsageError("--git takes a file, not standard input")
+    if len(words) == 1 and (arguments.git is not None or arguments.before_package or arguments.after_package):
+        words *= 2
     if len(words) != 2:
         raise UsageError(f"takes two robots, found {len(words)}")
     if words == ["-", "-"]:
         raise UsageError("only one of the robots can come from standard input")
-    sides = [_parse_side(name, word, arguments) for name, word in zip(_SIDES, words, strict=True)]
-    common = _share_out([*arguments.parameters, *assignments], sides, arguments)
-    before, after = (_load(side, pairs, arguments) for side, pairs in zip(sides, common, strict=True))
+    if arguments.git is None:
+        return _diff(words, assignments, None, arguments)
+    from linkforge_compile.cli.git_tree import copied_tree
+
+    with copied_tree(arguments.git, words[0]) as tree:
+        return _diff(words, assignments, tree, arguments)
+
+
+def _diff(words: list[str], assignments: list[str], tree: GitTree | None, arguments: argparse.Namespace) -> int:
+    """Compare two robots, the first one in a revision of git, and print the result; return the exit code."""
+    sides = [
+        parse_side(name, word, arguments, revision)
+        for name, word, revision in zip(SIDES, words, (tree, None), strict=True)
+    ]
+    common = share_out([*arguments.parameters, *assignments], sides, arguments)
+    before, after = (load(side, pairs, arguments) for side, pairs in zip(sides, common, strict=True))
     if before is None or after is None:
         return NO_ROBOT
-    (before, after), not_read_back = _as_urdfs(sides, (before, after), arguments)
+    (before, after), not_read_back = as_urdfs(sides, (before, after), arguments)
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, removed_public_names
 
@@ -171,97 +150,6 @@ def run(arguments: argparse.Namespace) -> int:
     )
     write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))
     return DIFFERENT if comparison.differences else OK
-
-
-def _parse_side(name: str, word: str, arguments: argparse.Namespace) -> _Side:
-    """Return the robot of one side with its own settings; UsageError for settings that it cannot have."""
-    values = vars(arguments)
-    assignments: list[str] = values[name]
-    variant: str | None = values[f"{name}_variant"]
-    srdf: str | None = values[f"{name}_srdf"]
-    require_file(f"--{name}-srdf", srdf)
-    if word.lower().endswith((".srdf", ".srdf.xacro")):
-        raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
-    text = read_unseekable(word)
-    side = _Side(word, assignments, variant, srdf, text, is_xml(word, text))
-    if side.is_urdf and (variant or (assignments and not side.parameter_files)):
-        raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
-    if srdf and not side.is_urdf:
-        raise UsageError(f"--{name}-srdf goes with a URDF; '{word}' has 'semantic' for it")
-    return side
-
-
-def _share_out(common: Sequence[str], sides: Sequence[_Side], arguments: argparse.Namespace) -> list[list[str]]:
-    """Return for each side the common settings of parameters that it has, and those that neither side has.
-
-    UsageError for a parameter or variant if both sides are URDFs.
-    """
-    if common and not any(side.parameter_files for side in sides):
-        raise UsageError(f"nothing takes '{common[0]}': a URDF has no parameters")
-    if arguments.variant and all(side.is_urdf for side in sides):
-        raise UsageError(f"nothing takes '--variant {arguments.variant}': a URDF has no variants")
-    is_unknown = any(side.text is not None and not side.is_urdf for side in sides)  # a spec that can be read only once
-    if not common or is_unknown or len({(side.word, side.srdf) for side in sides}) == 1:
-        return [list(common) for _ in sides]
-    from linkforge_compile.pipeline import parameters_of
-
-    packages, outside = packages_of(arguments), arguments.allow_outside
-    names: list[set[str]] = []
-    for side in sides:
-        listings = (parameters_of(file, packages=packages, allow_outside=outside)[0] for file in side.parameter_files)
-        names.append({one.name for listing in listings if listing for one in listing.parameters})
-    known = set().union(*names)
-    return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
-
-
-def _load(side: _Side, common: Iterable[str], arguments: argparse.Namespace) -> Robot | None:
-    """Return the robot of a side; None if it has errors, which are reported."""
-    from argparse import Namespace
-
-    own = Namespace(**vars(arguments))
-    own.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *side.assignments]
-    own.variant = side.variant or arguments.variant
-    if side.is_urdf:
-        from linkforge_compile.importing import import_urdf
-        from linkforge_compile.pipeline import compile_text
-
-        name = STDIN if side.word == "-" else side.word
-        imported = import_urdf(
-            name,
-            srdf=side.srdf,
-            arguments=own.parameters if side.parameter_files else (),
-            packages=packages_of(arguments),
-            allow_outside=arguments.allow_outside,
-            text=side.text,
-        )
-        if report((*errors_of(imported.diagnostics), *imported.losses), arguments) or imported.text is None:
-            return None
-        compilation = compile_text(imported.text, name=name, folder=Path(side.word).parent)
-    else:
-        compilation = compile_spec(side.word, [], own, text=side.text)
-    return None if report(errors_of(compilation.diagnostics), arguments) else compilation.robot
-
-
-def _as_urdfs(
-    sides: Sequence[_Side], robots: tuple[Robot, Robot], arguments: argparse.Namespace
-) -> tuple[tuple[Robot, Robot], str | None]:
-    """Return the robots; a spec that is compared with a URDF becomes the URDF that it compiles to.
-
-    Also return why that URDF cannot be read back, in which case the spec stays as written; None if it can.
-    """
-    is_spec = [not side.is_urdf for side in sides]
-    if all(is_spec) or not any(is_spec):
-        return robots, None
-    from linkforge_compile.importing import as_read_back
-
-    robot, faults = as_read_back(robots[is_spec.index(True)], gazebo=arguments.gazebo)
-    if robot is None:
-        return robots, faults[0].message
-    return ((robot, robots[1]) if is_spec[0] else (robots[0], robot)), None
-
-
-def _is_xacro(word: str) -> bool:
-    return Path(word).suffix.lower() == ".xacro"
 
 
 def _lines(comparison: _Comparison) -> Iterator[str]:
@@ -333,8 +221,9 @@ def _json_text(comparison: _Comparison) -> str:
     import json
 
     document: dict[str, object] = {"version": 1}
-    for name, side in zip(_SIDES, comparison.sides, strict=True):
-        settings = {"parameters": side.parameters, "variant": side.variant, "srdf": side.srdf}
+    for name, side in zip(SIDES, comparison.sides, strict=True):
+        settings: dict[str, object] = {"parameters": side.parameters, "variant": side.variant, "srdf": side.srdf}
+        settings |= {"packages": side.packages, "git": side.tree.name if side.tree else None}
         document |= {name: side.word, f"{name}_settings": settings}
     document |= {
         "tolerance": comparison.tolerance,

@@ -1,11 +1,10 @@
-"""Follow paths as specs write them, find packages, and read files of limited size."""
+"""Follow paths as specs write them, and find packages."""
 
 from __future__ import annotations
 
 import os
 import re
 import shlex
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, islice
@@ -14,10 +13,8 @@ from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
-from linkforge_compile.limits import MAX_FILE_BYTES
-from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name
+from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name, search_path
 from linkforge_compile.source import Span
-from linkforge_compile.source.characters import EncodingError, begins_xml, xml_text
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlScalar
 
@@ -136,7 +133,7 @@ def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Pat
 
 
 def _in_ament(name: str) -> Iterator[Path]:
-    for prefix in _search_path("AMENT_PREFIX_PATH"):
+    for prefix in search_path("AMENT_PREFIX_PATH"):
         folder = prefix / "share" / name
         if is_folder(folder):
             yield folder
@@ -144,7 +141,7 @@ def _in_ament(name: str) -> Iterator[Path]:
 
 def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
     """Yield matches of ROS_PACKAGE_PATH, which lists packages, folders of packages and folders of repositories."""
-    for root in _search_path("ROS_PACKAGE_PATH"):
+    for root in search_path("ROS_PACKAGE_PATH"):
         if package_name(root, roots) == name:
             yield root
         # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
@@ -219,86 +216,3 @@ def _shortest(folder: Path) -> str:
         return min(str(folder), os.path.relpath(folder), key=len)
     except ValueError:  # another drive of Windows
         return str(folder)
-
-
-def _search_path(variable: str) -> Iterator[Path]:
-    return (Path(entry) for entry in os.environ.get(variable, "").split(os.pathsep) if entry)
-
-
-class UnreadableError(Exception):
-    """There is something at the path that cannot be read as text; `undecoded` has the byte at fault, if any."""
-
-    def __init__(self, reason: str, undecoded: UnicodeDecodeError | None = None) -> None:
-        self.undecoded = undecoded
-        super().__init__(reason)
-
-
-class TooLargeError(UnreadableError):
-    """The file at the path is above the size limit."""
-
-
-def read_utf8(path: Path, *, only_regular: bool) -> str | None:
-    """Return the text of a UTF-8 file, None if there is no file.
-
-    `only_regular` rejects pipes and terminals, on which reading would block. Raises UnreadableError.
-    """
-    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    return None if content is None else _decode_utf8(content)
-
-
-def read_xml(path: Path, *, only_regular: bool) -> str | None:
-    """Return the text of an XML file in the encoding that it declares, None if there is no file."""
-    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    return None if content is None else _decode_xml(content)
-
-
-def read_spec(path: Path, *, only_regular: bool) -> str | None:
-    """Return the text of a spec, which is UTF-8, or of XML that was passed as one; None if there is no file."""
-    content = read_bytes(path, MAX_FILE_BYTES, only_regular=only_regular)
-    if content is None:
-        return None
-    return _decode_xml(content) if begins_xml(content) else _decode_utf8(content)
-
-
-def read_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
-    """Return the content of a file, None if there is none.
-
-    Raises UnreadableError for a folder and the like, TooLargeError above `limit` bytes, of which no more are read.
-    """
-    try:
-        if path.is_dir():
-            raise UnreadableError("it is a folder")
-        if only_regular and path.exists() and not path.is_file():
-            raise UnreadableError("it is no regular file")
-        with path.open("rb") as stream:
-            # read(n) allocates n bytes, so ask for no more than the file has; a pipe or /proc reports size 0.
-            content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)
-    except (FileNotFoundError, NotADirectoryError):
-        return None
-    except OSError as error:
-        raise UnreadableError((error.strerror or type(error).__name__).lower()) from error
-    except MemoryError as error:
-        raise TooLargeError("it does not fit into memory") from error
-    except ValueError as error:  # a NUL in the name
-        raise UnreadableError(str(error)) from error
-    if len(content) > limit:
-        raise TooLargeError(f"it is larger than {limit // 1024**2} MiB")
-    return content
-
-
-def _decode_utf8(content: bytes) -> str:
-    try:
-        return content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
-            raise UnreadableError("it is UTF-16, as PowerShell writes; save it as UTF-8") from error
-        line = error.object.count(b"\n", 0, error.start) + 1
-        reason = f"it is not UTF-8: line {line} has the byte {error.object[error.start]:#04x}; save it as UTF-8"
-        raise UnreadableError(reason, error) from error
-
-
-def _decode_xml(content: bytes) -> str:
-    try:
-        return xml_text(content)
-    except EncodingError as error:
-        raise UnreadableError(str(error), error.undecoded) from error

@@ -1,0 +1,198 @@
+"""The two robots of `linkforge diff`: what the command line says of each, and how it is compiled."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.cli import UsageError
+from linkforge_compile.cli.options import (
+    STDIN,
+    compile_spec,
+    is_xml,
+    name_set_by,
+    packages_of,
+    parse_packages,
+    read_unseekable,
+    require_file,
+)
+from linkforge_compile.cli.reports import errors_of, report
+from linkforge_compile.source.characters import on_one_line
+
+if TYPE_CHECKING:
+    from linkforge_compile.cli.git_tree import GitTree
+    from linkforge_compile.core import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.source import Span
+
+SIDES = ("before", "after")
+"""The names of the sides in options."""
+
+
+class Side(NamedTuple):
+    """One of the two robots as the command line gives it.
+
+    `file` is what is read: the `word`, or its copy in `tree`, the files of a git revision. `assignments`, the variant
+    and `packages` are those of this side alone. `text` is the content of standard input or a pipe, None for a file.
+    """
+
+    word: str
+    file: str
+    assignments: Sequence[str]
+    variant: str | None
+    srdf: str | None
+    packages: Mapping[str, str]
+    text: str | None
+    is_urdf: bool
+    tree: GitTree | None = None
+
+    @property
+    def parameters(self) -> dict[str, str]:
+        return {name_set_by(pair): pair.partition("=")[2] for pair in self.assignments}
+
+    @property
+    def label(self) -> str:
+        """The name in a heading, with the settings of this side: `arm.robot.yaml (reach=0.7m)`."""
+        settings = [self.tree.name] if self.tree else []
+        settings += [f"variant {self.variant}"] if self.variant else []
+        settings += [f"{name}={value}" for name, value in self.parameters.items()]
+        settings += [f"package {name}={folder}" for name, folder in self.packages.items()]
+        settings += [self.srdf] if self.srdf else []
+        return on_one_line(f"{self.word} ({', '.join(settings)})" if settings else self.word)
+
+    @property
+    def srdf_file(self) -> str | None:
+        return self.srdf if self.srdf is None or self.tree is None else str(self.tree.path(self.srdf))
+
+    @property
+    def parameter_files(self) -> list[str]:
+        """The files that may declare parameters: a spec, or the xacros of a URDF and an SRDF."""
+        files = [self.file] if not self.is_urdf or _is_xacro(self.file) else []
+        return [*files, self.srdf_file] if self.srdf_file and _is_xacro(self.srdf_file) else files
+
+    def all_packages(self, arguments: Namespace) -> dict[str, str]:
+        """Return the folders of packages, of both sides and of this one; those in the repository as of its revision."""
+        packages = {**packages_of(arguments), **self.packages}
+        return {name: str(self.tree.path(folder)) if self.tree else folder for name, folder in packages.items()}
+
+    @property
+    def has_semantic(self) -> bool:
+        return not self.is_urdf or self.srdf is not None
+
+
+def parse_side(name: str, word: str, arguments: Namespace, tree: GitTree | None = None) -> Side:
+    """Return the robot of one side with its own settings; UsageError for settings that it cannot have.
+
+    `tree` has the files of the revision in which it is read, None for the files as they are.
+    """
+    values = vars(arguments)
+    assignments: list[str] = values[name]
+    variant: str | None = values[f"{name}_variant"]
+    srdf: str | None = values[f"{name}_srdf"]
+    require_file(f"--{name}-srdf", srdf)
+    if word.lower().endswith((".srdf", ".srdf.xacro")):
+        raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
+    packages = parse_packages(values[f"{name}_package"], f"--{name}-package")
+    text = read_unseekable(word)
+    file = word if tree is None else str(tree.path(word))
+    side = Side(word, file, assignments, variant, srdf, packages, text, is_xml(file, text), tree)
+    if side.is_urdf and (variant or (assignments and not side.parameter_files)):
+        raise UsageError(f"'{word}' has no {'variants' if variant else 'parameters'}")
+    if srdf and not side.is_urdf:
+        raise UsageError(f"--{name}-srdf goes with a URDF; '{word}' has 'semantic' for it")
+    return side
+
+
+def share_out(common: Sequence[str], sides: Sequence[Side], arguments: Namespace) -> list[list[str]]:
+    """Return for each side the common settings of parameters that it has, and those that neither side has.
+
+    UsageError for a parameter or variant if both sides are URDFs.
+    """
+    if common and not any(side.parameter_files for side in sides):
+        raise UsageError(f"nothing takes '{common[0]}': a URDF has no parameters")
+    if arguments.variant and all(side.is_urdf for side in sides):
+        raise UsageError(f"nothing takes '--variant {arguments.variant}': a URDF has no variants")
+    is_unknown = any(side.text is not None and not side.is_urdf for side in sides)  # a spec that can be read only once
+    if not common or is_unknown or len({(side.file, side.srdf) for side in sides}) == 1:
+        return [list(common) for _ in sides]
+    from linkforge_compile.pipeline import parameters_of
+
+    outside = arguments.allow_outside
+    names: list[set[str]] = []
+    for side in sides:
+        packages = side.all_packages(arguments)
+        listings = (parameters_of(file, packages=packages, allow_outside=outside)[0] for file in side.parameter_files)
+        names.append({one.name for listing in listings if listing for one in listing.parameters})
+    known = set().union(*names)
+    return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
+
+
+def load(side: Side, common: Iterable[str], arguments: Namespace) -> Robot | None:
+    """Return the robot of a side; None if it has errors, which are reported."""
+    own = Namespace(**vars(arguments))
+    own.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *side.assignments]
+    own.variant = side.variant or arguments.variant
+    packages = side.all_packages(arguments)
+    own.packages = [f"{name}={folder}" for name, folder in packages.items()]
+    if side.is_urdf:
+        from linkforge_compile.importing import import_urdf
+        from linkforge_compile.pipeline import compile_text
+
+        name = STDIN if side.file == "-" else side.file
+        imported = import_urdf(
+            name,
+            srdf=side.srdf_file,
+            arguments=own.parameters if side.parameter_files else (),
+            packages=packages,
+            allow_outside=arguments.allow_outside,
+            text=side.text,
+        )
+        faults = (*errors_of(imported.diagnostics), *imported.losses)
+        if report(_as_in_git(faults, side.tree), arguments) or imported.text is None:
+            return None
+        compilation = compile_text(imported.text, name=name, folder=Path(side.file).parent)
+    else:
+        compilation = compile_spec(side.file, [], own, text=side.text)
+    faults = tuple(errors_of(compilation.diagnostics))
+    return None if report(_as_in_git(faults, side.tree), arguments) else compilation.robot
+
+
+def _as_in_git(diagnostics: Sequence[Diagnostic], tree: GitTree | None) -> Sequence[Diagnostic]:
+    """Return diagnostics with the files of a revision named as git names them, not as the temporary copies."""
+    if tree is None:
+        return diagnostics
+
+    def named(span: Span | None) -> Span | None:
+        if span is None or span.file.path is None or (name := tree.shown(span.file.path)) is None:
+            return span
+        return span._replace(file=replace(span.file, name=name, path=None))
+
+    return [
+        replace(one, span=named(one.span), notes=tuple(replace(note, span=named(note.span)) for note in one.notes))
+        for one in diagnostics
+    ]
+
+
+def as_urdfs(
+    sides: Sequence[Side], robots: tuple[Robot, Robot], arguments: Namespace
+) -> tuple[tuple[Robot, Robot], str | None]:
+    """Return the robots; a spec that is compared with a URDF becomes the URDF that it compiles to.
+
+    Also return why that URDF cannot be read back, in which case the spec stays as written; None if it can.
+    """
+    is_spec = [not side.is_urdf for side in sides]
+    if all(is_spec) or not any(is_spec):
+        return robots, None
+    from linkforge_compile.importing import as_read_back
+
+    robot, faults = as_read_back(robots[is_spec.index(True)], gazebo=arguments.gazebo)
+    if robot is None:
+        return robots, faults[0].message
+    return ((robot, robots[1]) if is_spec[0] else (robots[0], robot)), None
+
+
+def _is_xacro(word: str) -> bool:
+    return Path(word).suffix.lower() == ".xacro"

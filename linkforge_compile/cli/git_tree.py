@@ -1,0 +1,169 @@
+"""Copies the files of a git revision into a temporary folder, without running anything that the repository configures.
+
+Files come from `git cat-file`, which runs no hooks and no filters; `git archive`, `checkout` and `worktree` would.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path, PurePosixPath
+from typing import IO, NamedTuple
+
+from linkforge_compile.cli import UsageError
+from linkforge_compile.diagnostics.suggest import did_you_mean
+
+_MAX_FILES = 100_000
+_MAX_BYTES = 1024**3
+
+_SYMLINK, _SUBMODULE = "120000", "160000"
+"""Modes of the entries of a tree."""
+
+_GIT = ("git", "--no-pager", "--no-optional-locks", "--no-replace-objects", "-c", "core.fsmonitor=false")
+"""The command, without the program that a repository may name to watch its files."""
+
+
+class GitTree(NamedTuple):
+    """A copy of the files of a revision: `name` is that of the revision, `top` the repository, `copy` its copy."""
+
+    name: str
+    top: Path
+    copy: Path
+
+    def path(self, path: str | Path) -> Path:
+        """Return the copy of a file or folder; the path itself for one that is outside of the repository."""
+        # The folder may be a link into the repository; a file that is a link is one in the copy too.
+        absolute = Path(os.path.realpath(Path(path).parent), Path(path).name)
+        return self.copy / absolute.relative_to(self.top) if absolute.is_relative_to(self.top) else Path(path)
+
+    def shown(self, path: Path) -> str | None:
+        """Return the name of a file in the copy as git shows it, `HEAD~1:robots/arm.robot.yaml`; None for another."""
+        absolute = Path(os.path.abspath(path))  # noqa: PTH100 - links in the copy stay
+        return (
+            f"{self.name}:{absolute.relative_to(self.copy).as_posix()}" if absolute.is_relative_to(self.copy) else None
+        )
+
+
+@contextmanager
+def copied_tree(revision: str, spec: str) -> Iterator[GitTree]:
+    """Copy the files of a revision of the repository that holds a spec; remove the copy at the end.
+
+    Submodules are left out. UsageError without git, a repository or the revision, and for a spec that it lacks.
+    """
+    folder = Path(spec).parent
+    if not folder.is_dir():
+        raise UsageError(f"there is no folder '{folder}'")
+    if not revision or revision.startswith("-"):
+        raise UsageError(f"--git takes a revision, such as HEAD~1 or a branch, found '{revision}'")
+    top = Path(os.path.realpath(_git(folder, "rev-parse", "--show-toplevel").removesuffix("\n")))
+    try:
+        tree = _git(folder, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{tree}}").strip()
+    except UsageError:
+        raise UsageError(f"the repository '{top}' has no revision '{revision}'") from None
+    with tempfile.TemporaryDirectory(prefix="linkforge-git-") as name:
+        copy = GitTree(revision, top, Path(os.path.realpath(name)))
+        try:
+            _copy(top, tree, copy.copy)
+        except OSError as error:
+            raise UsageError(f"cannot copy revision '{revision}' to '{name}': {error.strerror}") from error
+        # The top of a repository ends the search for files that a spec may read.
+        (copy.copy / ".git").mkdir()
+        _require_file(copy, spec)
+        yield copy
+
+
+def _require_file(tree: GitTree, spec: str) -> None:
+    path = tree.path(spec)
+    if path.is_file():
+        return
+    others = [one.relative_to(tree.copy).as_posix() for one in sorted(tree.copy.rglob("*")) if one.name == path.name]
+    moved = f"; there is '{others[0]}'" if others else ""
+    near = moved or did_you_mean(path.name, [other.name for other in path.parent.glob("*")])
+    raise UsageError(f"'{spec}' is not in revision '{tree.name}'{near}")
+
+
+class _Entry(NamedTuple):
+    mode: str
+    object: str
+    path: PurePosixPath
+
+
+def _copy(top: Path, tree: str, target: Path) -> None:
+    """Write the files of a tree below a folder, then its links, so that no file is written through one."""
+    listing = _git(top, "ls-tree", "-r", "-z", "--full-tree", tree)
+    entries = [_entry(line) for line in listing.split("\0") if line]
+    if len(entries) > _MAX_FILES:
+        raise UsageError(f"the revision has more than {_MAX_FILES:,} files")
+    contents = [entry for entry in entries if entry.mode != _SUBMODULE]
+    links: list[tuple[Path, bytes]] = []
+    for entry, content in zip(contents, _contents(top, [entry.object for entry in contents]), strict=True):
+        path = target / entry.path
+        if entry.mode == _SYMLINK:
+            links.append((path, content))
+            continue
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    for path, content in links:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.symlink_to(os.fsdecode(content))
+
+
+def _entry(line: str) -> _Entry:
+    """Parse a line of `git ls-tree`; UsageError for a path that leads elsewhere, which only a forged tree has."""
+    facts, _, name = line.partition("\t")
+    mode, _, object_ = facts.split(" ")
+    path = PurePosixPath(name)
+    if path.is_absolute() or {"..", ".git"} & {part.lower() for part in path.parts} or os.path.splitdrive(name)[0]:
+        raise UsageError(f"the revision has a file that may not be written, '{name}'")
+    return _Entry(mode, object_, path)
+
+
+def _contents(top: Path, objects: Sequence[str]) -> Iterator[bytes]:
+    """Yield the content of each object, as it is stored; UsageError if all together are too large."""
+    command = [*_GIT, "-C", str(top), "cat-file", "--batch"]
+    # From a file, because a pipe that git does not read yet would block.
+    with tempfile.TemporaryFile() as names:
+        names.write("".join(f"{one}\n" for one in objects).encode())
+        names.seek(0)
+        null, pipe = subprocess.DEVNULL, subprocess.PIPE
+        with subprocess.Popen(command, stdin=names, stdout=pipe, stderr=null, env=_environment()) as process:
+            assert process.stdout is not None
+            try:
+                yield from _read_batch(process.stdout, len(objects))
+            finally:
+                process.kill()
+
+
+def _read_batch(stream: IO[bytes], count: int) -> Iterator[bytes]:
+    left = _MAX_BYTES
+    for _ in range(count):
+        # `OBJECT blob SIZE`, the content and a line feed; `OBJECT missing` in a partial clone.
+        header = stream.readline().split()
+        if len(header) != 3:
+            raise UsageError("the revision is not here as a whole; fetch it with 'git fetch --refetch'")
+        left -= (size := int(header[2]))
+        if left < 0:
+            raise UsageError(f"the files of the revision are larger than {_MAX_BYTES // 1024**3} GiB")
+        yield stream.read(size)
+        stream.read(1)
+
+
+def _git(folder: Path, *words: str) -> str:
+    """Return what a command of git prints; UsageError with the reason if it fails."""
+    command = [*_GIT, "-C", str(folder), *words]
+    try:
+        run = subprocess.run(command, capture_output=True, check=False, stdin=subprocess.DEVNULL, env=_environment())
+    except FileNotFoundError:
+        raise UsageError("--git needs the command 'git', which is not on the PATH") from None
+    if run.returncode:
+        reason = os.fsdecode(run.stderr).strip().partition("\n")[0].removeprefix("fatal: ")
+        raise UsageError(f"cannot read the git repository of '{folder}': {reason}")
+    return os.fsdecode(run.stdout)
+
+
+def _environment() -> dict[str, str]:
+    """Return the environment, in which a partial clone cannot fetch, by a program that the repository may name."""
+    return {**os.environ, "GIT_ALLOW_PROTOCOL": "none"}

@@ -1,0 +1,248 @@
+"""`linkforge diff SPEC --git REV` and `--before-package`, with real repositories."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.cli.in_process import linkforge
+from tests.cli.test_diff import SCHEMA
+from tests.programs import program
+
+ARM = """\
+linkforge: 1
+name: arm
+data: {table: ../data/masses.yaml}
+links: {base: , tool: }
+modules: {hand: {use: hand.robot.yaml, parent: tool}}
+joints: {flange: {type: fixed, parent: base, child: tool, origin: [0, 0, $(table.reach)]}}
+"""
+HAND = "linkforge: 1\nname: hand\nlinks: {palm: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}\n"
+
+
+class Repository:
+    """A git repository whose first commit holds an arm, a module of it and its data."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.git("init", "-q")
+        self.write("robots/arm.robot.yaml", ARM)
+        self.write("robots/hand.robot.yaml", HAND)
+        self.write("data/masses.yaml", "reach: 1 m\n")
+        self.commit()
+
+    def git(self, *words: str) -> str:
+        who = ("-c", "user.name=a", "-c", "user.email=a@example.com")
+        command = [program("git"), *who, *words]
+        return subprocess.run(command, cwd=self.folder, check=True, capture_output=True, text=True, timeout=60).stdout
+
+    def write(self, name: str, text: str) -> None:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def commit(self) -> None:
+        self.git("add", "--all")
+        self.git("commit", "-q", "--message", "state")
+
+
+@pytest.fixture
+def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+    for name in [name for name in os.environ if name.startswith("GIT_")]:  # as in a hook of git
+        monkeypatch.delenv(name)
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    (tmp_path / "temporary").mkdir()
+    folder = tmp_path / "repository"
+    folder.mkdir()
+    return Repository(folder)
+
+
+def test_a_spec_and_all_that_it_includes_are_read_as_of_the_revision(repository: Repository):
+    arm = "robots/arm.robot.yaml"
+    same = linkforge("diff", arm, "--git", "HEAD", cwd=repository.folder)
+    assert (same.returncode, same.stdout) == (0, f"{arm} (HEAD) and {arm} are the same robot\n")
+    repository.write("robots/hand.robot.yaml", HAND.replace("mass: 1", "mass: 2"))
+    repository.commit()
+    repository.write("data/masses.yaml", "reach: 2 m\n")
+    for cwd, spec in ((repository.folder, arm), (repository.folder / "robots", "arm.robot.yaml")):
+        run = linkforge("diff", spec, "--git", "HEAD~1", cwd=cwd)
+        assert run.returncode == 1, run.stderr
+        assert run.stdout.startswith(f"{spec} (HEAD~1) → {spec}: 2 changed\n")
+        assert "inertial/mass: 1 kg → 2 kg (+100 %)" in run.stdout
+        assert "origin: moved by 1000 mm (z +1000 mm)" in run.stdout
+    assert "reach" not in repository.git("status", "--porcelain", "--", "robots")
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+def test_json_has_the_revision(repository: Repository):
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", "--json", cwd=repository.folder)
+    document = json.loads(run.stdout)
+    SCHEMA.validate(document)
+    assert (document["before_settings"]["git"], document["after_settings"]["git"]) == ("HEAD", None)
+
+
+def test_a_spec_that_was_renamed_is_compared_with_the_old_one(repository: Repository):
+    repository.git("mv", "robots/arm.robot.yaml", "robots/new.robot.yaml")
+    repository.commit()
+    run = linkforge("diff", "robots/new.robot.yaml", "--git", "HEAD~1", cwd=repository.folder)
+    assert run.returncode == 2
+    assert "'robots/new.robot.yaml' is not in revision 'HEAD~1'" in run.stderr
+    words = ("robots/arm.robot.yaml", "robots/new.robot.yaml", "--git", "HEAD~1")
+    run = linkforge("diff", *words, cwd=repository.folder)
+    assert run.returncode == 0, run.stderr
+    (repository.folder / "old").mkdir()
+    moved = linkforge("diff", "old/arm.robot.yaml", words[1], "--git", "HEAD~1", cwd=repository.folder)
+    assert "is not in revision 'HEAD~1'; there is 'robots/arm.robot.yaml'" in moved.stderr
+
+
+def test_an_error_in_the_revision_is_reported_at_its_place_there(repository: Repository):
+    repository.write("robots/hand.robot.yaml", HAND.replace("mass: 1", "mass: 3 mm"))
+    repository.commit()
+    repository.write("robots/hand.robot.yaml", HAND)
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert run.returncode == 2
+    assert run.stderr.startswith("HEAD:robots/hand.robot.yaml:3:")
+    assert "HEAD:robots/arm.robot.yaml:5:" in run.stderr  # the note of its use
+    assert "linkforge-git" not in run.stderr
+
+
+def test_nothing_that_a_repository_configures_is_run(repository: Repository):
+    mark = repository.folder.parent / "was_run"
+    script = repository.folder / "run.sh"
+    script.write_text(f'#!/bin/sh\necho "$0" >> "{mark}"\ncat\n')
+    script.chmod(0o755)
+    repository.write(".gitattributes", "*.yaml filter=hostile diff=hostile export-subst\n")
+    repository.commit()
+    for hook in ("post-checkout", "post-index-change", "reference-transaction", "pre-commit"):
+        (repository.folder / ".git" / "hooks" / hook).symlink_to(script)
+    for name in (
+        *("filter.hostile.smudge", "filter.hostile.process", "filter.hostile.clean"),
+        *("diff.hostile.textconv", "diff.external", "core.fsmonitor", "core.pager", "core.sshCommand"),
+    ):
+        repository.git("config", name, str(script))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert not mark.exists()
+
+
+def test_a_partial_clone_fetches_nothing(repository: Repository):
+    mark = repository.folder.parent / "was_run"
+    clone = repository.folder.parent / "clone"
+    origin = repository.folder.as_uri()
+    repository.git("config", "uploadpack.allowFilter", "true")
+    repository.git("clone", "-q", "--filter=blob:none", "--no-checkout", origin, str(clone))
+    repository.git("-C", str(clone), "config", "remote.origin.url", f"ext::touch {mark}")
+    repository.git("-C", str(clone), "config", "protocol.ext.allow", "always")
+    (clone / "robots").mkdir()
+    (clone / "robots" / "arm.robot.yaml").write_text(ARM)
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=clone)
+    assert run.returncode == 2
+    assert "the revision is not here as a whole" in run.stderr
+    assert not mark.exists()
+
+
+def test_a_link_that_leads_out_of_the_revision_is_not_followed(repository: Repository):
+    secret = repository.folder.parent / "secret.yaml"
+    secret.write_text("reach: 1 m\n")
+    (repository.folder / "data" / "masses.yaml").unlink()
+    (repository.folder / "data" / "masses.yaml").symlink_to(secret)
+    (repository.folder / "robots" / "hand.robot.yaml").rename(repository.folder / "hand.robot.yaml")
+    (repository.folder / "robots" / "hand.robot.yaml").symlink_to("../hand.robot.yaml")
+    repository.commit()
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert run.returncode == 2
+    assert "HEAD:robots/arm.robot.yaml:3:15: error: " in run.stderr
+    assert "masses.yaml' leads out" in run.stderr
+    assert "hand" not in run.stderr
+
+
+def test_a_forged_path_is_not_written(repository: Repository):
+    blob = repository.git("hash-object", "-w", "data/masses.yaml").strip()
+    entry = f"100644 blob {blob}\t..\n".encode()
+    command = [program("git"), "mktree"]
+    made = subprocess.run(command, cwd=repository.folder, input=entry, capture_output=True, check=False, timeout=60)
+    if made.returncode:
+        # git itself refuses to make such a tree, so its bytes are written as an object.
+        body = b"100644 ..\0" + bytes.fromhex(blob)
+        forged = subprocess.run(
+            [program("git"), "hash-object", "-w", "-t", "tree", "--literally", "--stdin"],
+            cwd=repository.folder,
+            input=body,
+            capture_output=True,
+            check=True,
+            timeout=60,
+        )
+        tree = forged.stdout.decode().strip()
+    else:
+        tree = made.stdout.decode().strip()
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, '..'" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("robots/arm.robot.yaml", "--git", "nowhere"), "repository' has no revision 'nowhere'"),
+        (("robots/arm.robot.yaml", "--git="), "--git takes a revision, such as HEAD~1 or a branch, found ''"),
+        (
+            ("robots/arm.robot.yaml", "--git=--output=x"),
+            "--git takes a revision, such as HEAD~1 or a branch, found '--o",
+        ),
+        (("../arm.robot.yaml", "--git", "HEAD"), "cannot read the git repository of '..': not a git repository"),
+        (("-", "robots/arm.robot.yaml", "--git", "HEAD"), "--git takes a file, not standard input"),
+        (("nowhere/arm.robot.yaml", "--git", "HEAD"), "there is no folder 'nowhere'"),
+        (("robots/arm.robot.yaml",), "takes two robots, found 1"),
+        (("robots/arm.robot.yaml", "--before-package", "hands"), "--before-package takes NAME=PATH, found 'hands'"),
+        (("robots/arm.robot.yaml", "--after-package", "hands=no"), "--after-package hands=no: there is no folder 'no'"),
+    ],
+)
+def test_what_cannot_be_compared_is_wrong_usage(repository: Repository, words: tuple[str, ...], message: str):
+    run = linkforge("diff", *words, cwd=repository.folder)
+    assert run.returncode == 2
+    assert message in run.stderr
+
+
+def test_a_machine_without_git_is_an_error_that_says_so(repository: Repository):
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder, PATH="/nowhere")
+    assert run.returncode == 2
+    assert "--git needs the command 'git', which is not on the PATH" in run.stderr
+
+
+def test_a_package_is_compared_with_its_older_version(tmp_path: Path):
+    for version, mass in (("old", 1), ("new", 2)):
+        folder = tmp_path / version
+        folder.mkdir()
+        (folder / "hand.robot.yaml").write_text(HAND.replace("mass: 1", f"mass: {mass}"))
+    (tmp_path / "arm").mkdir()
+    (tmp_path / "arm" / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nlinks: {tool: }\n"
+        'modules: {hand: {use: "package://hands/hand.robot.yaml", parent: tool}}\n'
+    )
+    words = ("diff", "arm/arm.robot.yaml", "--package", "hands=new")
+    run = linkforge(*words, "--before-package", "hands=old", cwd=tmp_path)
+    assert run.returncode == 1, run.stderr
+    assert run.stdout.startswith("arm/arm.robot.yaml (package hands=old) → arm/arm.robot.yaml: 1 changed\n")
+    assert "inertial/mass: 1 kg → 2 kg (+100 %)" in run.stdout
+    run = linkforge(*words, "--after-package", "hands=old", "--json", cwd=tmp_path)
+    document = json.loads(run.stdout)
+    SCHEMA.validate(document)
+    assert document["after_settings"]["packages"] == {"hands": "old"}
+    assert document["differences"][0]["after"] == 1
+
+
+def test_a_package_in_the_repository_is_read_as_of_the_revision(repository: Repository):
+    repository.write("vendor/hand.robot.yaml", HAND)
+    repository.write(
+        "robots/cell.robot.yaml",
+        "linkforge: 1\nname: cell\nlinks: {tool: }\n"
+        'modules: {hand: {use: "package://hands/hand.robot.yaml", parent: tool}}\n',
+    )
+    repository.commit()
+    repository.write("vendor/hand.robot.yaml", HAND.replace("mass: 1", "mass: 2"))
+    words = ("diff", "robots/cell.robot.yaml", "--package", "hands=vendor", "--git", "HEAD")
+    run = linkforge(*words, cwd=repository.folder)
+    assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stderr
