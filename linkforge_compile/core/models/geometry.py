@@ -17,9 +17,10 @@ from linkforge_compile.core.fields import (
     Number,
     Text,
     Vector,
+    check_numbers,
     is_finite,
     not_finite,
-    require_finite,
+    number_fields,
 )
 from linkforge_compile.core.part import Element, Part, extras_last
 from linkforge_compile.units import ANGLE, LENGTH
@@ -106,23 +107,33 @@ IDENTITY = Transform()
 
 
 class _Shape(Element):
-    """What shapes have in common: a type, which is their tag inside `<geometry>`."""
+    """What shapes have in common: a type, which is their tag inside `<geometry>`, and sizes [m] above 0.
+
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION for a size that is not above 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
 
     @property
     def type(self) -> GeometryType:
         """The tag of the shape inside `<geometry>`."""
         return GeometryType(self.TAG)
 
+    def _check(self) -> None:
+        for name in number_fields(type(self)):
+            extent: float = getattr(self, name)
+            if extent <= 0:
+                message = f"{self.type} {name} must be positive [m], found {extent}"
+                target = f"{self.type.title()}{name.title()}"
+                raise RobotPhysicsError(ValidationErrorCode.PHYSICS_VIOLATION, message, target, extent, field=(name,))
+        check_numbers(self)
+
 
 @extras_last
 @dataclass(frozen=True)
 class Box(_Shape):
-    """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless every extent is above 0.
-
-    """
+    """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m]."""
 
     TAG: ClassVar[str] = "box"
 
@@ -131,13 +142,9 @@ class Box(_Shape):
     def _check(self) -> None:
         for position, extent in enumerate(self.size):
             if extent <= 0:
-                raise RobotPhysicsError(
-                    ValidationErrorCode.PHYSICS_VIOLATION,
-                    f"box dimensions must be positive [m], found {self.size}",
-                    target="BoxSize",
-                    value=self.size,
-                    field=(position,),
-                )
+                message = f"box dimensions must be positive [m], found {self.size}"
+                code = ValidationErrorCode.PHYSICS_VIOLATION
+                raise RobotPhysicsError(code, message, "BoxSize", self.size, field=(position,))
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -151,21 +158,12 @@ _LENGTH = Number(LENGTH, ABOVE_ZERO, example="0.5", is_required_in_urdf=True)
 @extras_last
 @dataclass(frozen=True)
 class Cylinder(_Shape):
-    """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
-    """
+    """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m]."""
 
     TAG: ClassVar[str] = "cylinder"
 
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
-
-    def _check(self) -> None:
-        _require_extents(self, "radius", "length")
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -175,20 +173,11 @@ class Cylinder(_Shape):
 @extras_last
 @dataclass(frozen=True)
 class Sphere(_Shape):
-    """A sphere about its origin: `<sphere radius>` [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless the radius is above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
-    """
+    """A sphere about its origin: `<sphere radius>` [m]."""
 
     TAG: ClassVar[str] = "sphere"
 
     radius: Annotated[float, _RADIUS]
-
-    def _check(self) -> None:
-        _require_extents(self, "radius")
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -201,20 +190,12 @@ class Capsule(_Shape):
     """A cylinder about its z axis with a half sphere on either end: `<capsule radius length>`, both [m].
 
     `length` is that of the cylinder alone, so the whole is `length + 2 * radius` long. Centred on its origin.
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
     """
 
     TAG: ClassVar[str] = "capsule"
 
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
-
-    def _check(self) -> None:
-        _require_extents(self, "radius", "length")
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -249,31 +230,13 @@ class Mesh(_Shape):
     def _check(self) -> None:
         for position, factor in enumerate(self.scale):
             if factor == 0:
-                raise RobotPhysicsError(
-                    ValidationErrorCode.PHYSICS_VIOLATION,
-                    f"mesh scale must not be 0 along any axis, found {self.scale}",
-                    target="MeshScale",
-                    value=self.scale,
-                    field=("scale", position),
-                )
+                message = f"mesh scale must not be 0 along any axis, found {self.scale}"
+                code, path = ValidationErrorCode.PHYSICS_VIOLATION, ("scale", position)
+                raise RobotPhysicsError(code, message, "MeshScale", self.scale, field=path)
 
 
 Geometry: TypeAlias = Box | Cylinder | Sphere | Capsule | Mesh
 """Any shape; the one child of `<geometry>`."""
-
-
-def _require_extents(shape: Cylinder | Sphere | Capsule, *names: str) -> None:
-    for name in names:
-        extent: float = getattr(shape, name)
-        if extent <= 0:
-            raise RobotPhysicsError(
-                ValidationErrorCode.PHYSICS_VIOLATION,
-                f"{shape.type} {name} must be positive [m], found {extent}",
-                target=f"{shape.type.title()}{name.title()}",
-                value=extent,
-                field=(name,),
-            )
-    require_finite(shape, *names)
 
 
 @extras_last
@@ -296,13 +259,9 @@ class Color(Element):
     def _check(self) -> None:
         for position, component in enumerate(self.to_tuple()):
             if not 0 <= component <= 1:
-                raise RobotValidationError(
-                    ValidationErrorCode.OUT_OF_RANGE,
-                    f"color component must be in range [0.0, 1.0], found {component}",
-                    target="ColorComponent",
-                    value=component,
-                    field=(position,),
-                )
+                message = f"color component must be in range [0.0, 1.0], found {component}"
+                code = ValidationErrorCode.OUT_OF_RANGE
+                raise RobotValidationError(code, message, "ColorComponent", component, field=(position,))
 
     @classmethod
     def white(cls) -> Self:
@@ -350,9 +309,5 @@ class Material(Element):
 
     def _check(self) -> None:
         if self.color is None and self.texture is None:
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                f"material '{self.name}' must have a color or a texture",
-                target="MaterialDefinition",
-                value=self.name,
-            )
+            message = f"material '{self.name}' must have a color or a texture"
+            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "MaterialDefinition", self.name)
