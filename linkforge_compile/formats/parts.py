@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable
 from functools import cache
-from itertools import chain
 from operator import attrgetter
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -64,59 +63,18 @@ def doubtful_parts_in(*sections: object) -> Doubtful:
     """
     found = Doubtful([], [])
     for section in sections:
-        if not _are_plain((section,)):
-            _gather(section, None, (), found)
+        _gather(section, None, (), found)
     return found
-
-
-def _are_plain(values: Collection[object]) -> bool:
-    """Whether there is certainly no doubtful part in values of any classes.
-
-    Those of a class are asked together, and then the values of each of its fields: a tenth of the walk through all.
-    """
-    return all(_are_plain_of(kind, values) for kind in set(map(type, values)))
-
-
-def _are_plain_of(kind: type, values: Collection[object]) -> bool:
-    """Answer for those of the values that are of a class."""
-    if issubclass(kind, _PARTS):
-        return _are_plain_parts([value for value in values if value.__class__ is kind and isinstance(value, _PARTS)])
-    if issubclass(kind, str):
-        return "".join([value for value in values if isinstance(value, str)]).isprintable()
-    if issubclass(kind, tuple):
-        collections = [value for value in values if isinstance(value, tuple)]
-        return _are_plain(list(chain.from_iterable(collections)))
-    return issubclass(kind, _WITHOUT_TEXT) or all(
-        _is_surely_writable(value) for value in values if value.__class__ is kind
-    )
-
-
-def _are_plain_parts(parts: Sequence[Part]) -> bool:
-    kind: type = parts[0].__class__
-    names, values_of, extras_of = _ways_into(kind)
-    if any(map(any, map(extras_of, parts))):
-        return False
-    columns = zip(*map(values_of, parts), strict=True) if names else ()
-    return all(
-        _are_plain(column) and not (name == RAW_XML and any(column))
-        for name, column in zip(names, columns, strict=True)
-    )
 
 
 def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
     if isinstance(value, _PARTS):
         _gather_part(value, where, around, found)
-    elif isinstance(value, tuple):  # before what is asked of base classes, which takes long
+    elif isinstance(value, list | tuple):
         for inner in value:
             _gather(inner, where, around, found)
-    elif isinstance(value, _HOLD_NONE):
-        return
-    elif isinstance(value, Mapping):
-        for inner in value.values():
-            _gather(inner, where, around, found)
-    elif isinstance(value, Sequence):
-        for inner in value:
-            _gather(inner, where, around, found)
+    elif isinstance(value, dict):
+        _gather(tuple(value.values()), where, around, found)
 
 
 def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
@@ -154,16 +112,15 @@ def _is_surely_writable(value: object) -> bool:
         return value.isprintable() or is_writable(value)
     if isinstance(value, LinkPhysics):
         return type(value.self_collide) is type(value.gravity) is bool
-    return isinstance(value, BasePart) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
+    if isinstance(value, tuple):
+        return all(map(_is_surely_writable, value))
+    return isinstance(value, _WITHOUT_TEXT)
 
 
 # A union takes three times as long to ask.
 _PARTS = (WithExtras, Link, Interface)
 
-_WITHOUT_TEXT = (float, int, NoneType)
-
-# What is neither one of them nor a collection.
-_HOLD_NONE = (str, BasePart)
+_WITHOUT_TEXT = (BasePart, int, float, NoneType)
 
 RAW_XML = "raw_xml"
 """The field of a plugin that is XML, and not text."""
