@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -40,6 +42,16 @@ class Bench:
         """Return a function that runs a program of the environment as a process."""
         command = (self.environment.program(program), *map(str, arguments))
         return lambda: self.spawner.measure(*command)
+
+    def make_runs(self, commands: list[tuple[object, ...]]) -> Callable[[], Sample]:
+        """Return a function that runs processes one after another, and adds up their costs."""
+        runs = [self.make_run(str(program), *arguments) for program, *arguments in commands]
+
+        def run() -> Sample:
+            walls, processors, megabytes = zip(*(run() for run in runs), strict=True)
+            return Sample(sum(walls), sum(processors), max(megabytes))
+
+        return run
 
     def measure_in_turns(
         self, what: str, *sides: Callable[[], Sample], rounds: int | None = None
@@ -99,6 +111,27 @@ def measure_warm(bench: Bench) -> Iterator[Row]:
         yield average_rows(rows, f"second: mean of {group}", Budget(0.35, 0.2))
 
 
+BULK = 30
+"""How many robots `measure_bulk` compiles at once."""
+
+
+def measure_bulk(bench: Bench) -> Iterator[Row]:
+    """Compare one process that compiles thirty robots with thirty processes of xacro, and of linkforge."""
+    for group, robots in bench.robots.items():
+        folder = Path(tempfile.mkdtemp(dir=bench.folder))
+        turns = [robots[number % len(robots)] for number in range(BULK)]
+        specs = [folder / "specs" / f"{robot.name}_{number}.robot.yaml" for number, robot in enumerate(turns)]
+        (folder / "specs").mkdir()
+        for spec, robot in zip(specs, turns, strict=True):
+            shutil.copy(robot.spec, spec)
+        ours = bench.make_run("linkforge", "compile", folder / "specs", "-o", f"{folder}/bulk/")
+        what = f"{BULK} robots of {group}"
+        others = bench.make_runs([("xacro", robot.xacro, "-o", folder / f"{robot.name}.urdf") for robot in turns])
+        yield bench.measure(what, f"{BULK} of {XACRO}", ours, others, Budget(0.25, 0.15))
+        each = bench.make_runs([("linkforge", "compile", spec, "-o", f"{folder}/each/") for spec in specs])
+        yield bench.measure(what, f"{BULK} processes", ours, each)
+
+
 def measure_chain(bench: Bench) -> Iterator[Row]:
     """Compile 1,000 links to URDF, checked, against linkforge-core reading, validating and writing the same URDF."""
     specs = {"each written": make_chain(1000), "by a `for`": make_repeated_chain(1000)}
@@ -148,10 +181,11 @@ def measure_start(bench: Bench) -> Iterator[Row]:
 COMPARISONS: dict[str, Callable[[Bench], Iterator[Row]]] = {
     "cold": measure_cold,
     "warm": measure_warm,
+    "bulk": measure_bulk,
     "chain": measure_chain,
     "growth": measure_growth,
     "merge": measure_merge,
     "start": measure_start,
 }
-OF_ROBOTS = {"cold", "warm"}
+OF_ROBOTS = {"cold", "warm", "bulk"}
 """The comparisons that use `Bench.robots`."""

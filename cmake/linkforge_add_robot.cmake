@@ -14,6 +14,8 @@
 # Compiles a robot whenever the spec changes, or anything that it is made from: modules, included files, files of
 # values, xacro files and meshes that give an inertia, as the compile itself says, and linkforge.
 function(linkforge_add_robot spec)
+  set(call "linkforge_add_robot(${spec})")
+  set(rename "call the files of this one by NAME")
   cmake_parse_arguments(PARSE_ARGV 1 ROBOT
     "INSTALL;ALLOW_OUTSIDE" "VARIANT;GAZEBO;NAME;TARGET;OUTPUT;DESTINATION" "PARAMS;PACKAGES;FORMATS")
   if(ROBOT_UNPARSED_ARGUMENTS)
@@ -21,6 +23,103 @@ function(linkforge_add_robot spec)
     set(taken "PARAMS, VARIANT, PACKAGES, ALLOW_OUTSIDE, GAZEBO, FORMATS, NAME, TARGET, OUTPUT, INSTALL and DESTINATION")
     _linkforge_refuse("it has no argument '${word}'; it takes ${taken}")
   endif()
+  _linkforge_check_keywords()
+  get_filename_component(path "${spec}" ABSOLUTE)
+  _linkforge_require_spec()
+  if(NOT DEFINED ROBOT_NAME)
+    _linkforge_name(ROBOT_NAME)
+  endif()
+  _linkforge_require_name()
+  if(NOT DEFINED ROBOT_TARGET)
+    string(REGEX REPLACE "[^A-Za-z0-9_.+-]" "_" ROBOT_TARGET "robot_${ROBOT_NAME}")
+  endif()
+  _linkforge_destination(destination)
+  _linkforge_options(options)
+  _linkforge_outputs(outputs)
+  _linkforge_require_target()
+
+  list(TRANSFORM outputs PREPEND "-o;" OUTPUT_VARIABLE output_options)
+  _linkforge_compile("${ROBOT_NAME}.robot.d" "Compiling robot ${ROBOT_NAME}" "${path}" "${outputs}")
+  if(DEFINED ROBOT_OUTPUT)
+    set(${ROBOT_OUTPUT} ${outputs} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# linkforge_add_robots(SPEC ...
+#   TARGET TARGET                 # the target of all, which is part of `all`
+#   [PARAMS ...] [VARIANT NAME] [PACKAGES ...] [ALLOW_OUTSIDE] [GAZEBO gz|classic] [FORMATS urdf srdf]
+#   [OUTPUT VARIABLE] [INSTALL [DESTINATION DIR]])      # as above, for each of them
+#
+# Compiles several robots in one process, whenever any of them or of what they are made from changes. An output whose
+# bytes stay the same keeps its time stamp, so that with Ninja nothing that depends on it is built again.
+function(linkforge_add_robots)
+  cmake_parse_arguments(PARSE_ARGV 0 ROBOT
+    "INSTALL;ALLOW_OUTSIDE" "VARIANT;GAZEBO;TARGET;OUTPUT;DESTINATION" "PARAMS;PACKAGES;FORMATS")
+  set(call "linkforge_add_robots(TARGET ${ROBOT_TARGET})")
+  set(rename "add this one by linkforge_add_robot, with a NAME")
+  _linkforge_check_keywords()
+  if(NOT ROBOT_UNPARSED_ARGUMENTS)
+    _linkforge_refuse("it takes one spec or more before its keywords")
+  endif()
+  if(NOT DEFINED ROBOT_TARGET)
+    _linkforge_refuse("TARGET is missing, the name of the target of all these robots")
+  endif()
+  set(paths)
+  set(all_outputs)
+  foreach(spec IN LISTS ROBOT_UNPARSED_ARGUMENTS)
+    get_filename_component(path "${spec}" ABSOLUTE)
+    _linkforge_require_spec()
+    _linkforge_name(ROBOT_NAME)
+    _linkforge_outputs(outputs)
+    list(APPEND paths "${path}")
+    list(APPEND all_outputs ${outputs})
+  endforeach()
+  _linkforge_require_target()
+  set(outputs "${all_outputs}")
+  _linkforge_destination(destination)
+  _linkforge_options(options)
+
+  set(output_options -o "${CMAKE_CURRENT_BINARY_DIR}/")
+  foreach(format IN LISTS ROBOT_FORMATS)
+    list(APPEND output_options --format "${format}")
+  endforeach()
+  _linkforge_compile("${ROBOT_TARGET}.robots.d" "Compiling robots ${ROBOT_TARGET}" "${paths}" "${outputs}")
+  if(DEFINED ROBOT_OUTPUT)
+    set(${ROBOT_OUTPUT} ${outputs} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# The functions below see the variables of the one that calls them.
+
+# Run one process that compiles specs into outputs, as part of ROBOT_TARGET, and install these.
+function(_linkforge_compile depfile comment specs outputs)
+  set(depfile "${CMAKE_CURRENT_BINARY_DIR}/${depfile}")
+  # Outputs whose bytes stay keep their time stamp. Ninja knows; Make would compile again and again.
+  set(renew)
+  if(CMAKE_GENERATOR MATCHES "Makefiles")
+    set(renew COMMAND "${CMAKE_COMMAND}" -E touch ${outputs})
+  endif()
+  add_custom_command(
+    OUTPUT ${outputs}
+    COMMAND "${LINKFORGE_EXECUTABLE}" compile ${specs} ${options} ${output_options} --depfile "${depfile}"
+    ${renew}
+    DEPENDS ${specs}
+    DEPFILE "${depfile}"
+    COMMENT "${comment}"
+    VERBATIM)
+  add_custom_target("${ROBOT_TARGET}" ALL DEPENDS ${outputs} SOURCES ${specs})
+  if(ROBOT_INSTALL)
+    _linkforge_require_places()
+    install(FILES ${outputs} DESTINATION "${destination}")
+  endif()
+endfunction()
+
+function(_linkforge_refuse why)
+  message(FATAL_ERROR "${call}: ${why}")
+endfunction()
+
+# Check the keywords that both functions have; an empty value is none.
+macro(_linkforge_check_keywords)
   # A variable behind PARAMS, VARIANT or PACKAGES may well be empty.
   list(FILTER ROBOT_KEYWORDS_MISSING_VALUES EXCLUDE REGEX "^(PARAMS|VARIANT|PACKAGES)$")
   if(ROBOT_KEYWORDS_MISSING_VALUES)
@@ -35,54 +134,26 @@ function(linkforge_add_robot spec)
   if(DEFINED ROBOT_DESTINATION AND NOT ROBOT_INSTALL)
     _linkforge_refuse("DESTINATION is of INSTALL, which is not there")
   endif()
+  if(NOT DEFINED ROBOT_FORMATS)
+    set(ROBOT_FORMATS urdf)
+  endif()
+  list(REMOVE_DUPLICATES ROBOT_FORMATS)
+endmacro()
 
-  get_filename_component(path "${spec}" ABSOLUTE)
-  _linkforge_require_spec()
-  if(NOT DEFINED ROBOT_NAME)
-    get_filename_component(ROBOT_NAME "${path}" NAME)
-    # The endings of name_of in linkforge_compile/cli/targets.py, in its order.
-    foreach(ending IN ITEMS yaml yml robot xacro urdf)
-      string(REGEX REPLACE "\\.${ending}$" "" ROBOT_NAME "${ROBOT_NAME}")
-    endforeach()
-  endif()
-  _linkforge_require_name()
-  if(NOT DEFINED ROBOT_TARGET)
-    string(REGEX REPLACE "[^A-Za-z0-9_.+-]" "_" ROBOT_TARGET "robot_${ROBOT_NAME}")
-  endif()
-  _linkforge_destination(destination)
-  _linkforge_options(options)
-  _linkforge_outputs(outputs)
-
-  set(depfile "${CMAKE_CURRENT_BINARY_DIR}/${ROBOT_NAME}.robot.d")
-  list(TRANSFORM outputs PREPEND "-o;" OUTPUT_VARIABLE output_options)
-  # Outputs whose bytes stay keep their time stamp. Ninja knows; Make would compile again and again.
-  set(renew)
-  if(CMAKE_GENERATOR MATCHES "Makefiles")
-    set(renew COMMAND "${CMAKE_COMMAND}" -E touch ${outputs})
-  endif()
-  add_custom_command(
-    OUTPUT ${outputs}
-    COMMAND "${LINKFORGE_EXECUTABLE}" compile "${path}" ${options} ${output_options} --depfile "${depfile}"
-    ${renew}
-    DEPENDS "${path}"
-    DEPFILE "${depfile}"
-    COMMENT "Compiling robot ${ROBOT_NAME}"
-    VERBATIM)
-  add_custom_target("${ROBOT_TARGET}" ALL DEPENDS ${outputs} SOURCES "${path}")
-
-  if(ROBOT_INSTALL)
-    _linkforge_require_places()
-    install(FILES ${outputs} DESTINATION "${destination}")
-  endif()
-  if(DEFINED ROBOT_OUTPUT)
-    set(${ROBOT_OUTPUT} ${outputs} PARENT_SCOPE)
-  endif()
+# The name of the outputs of a spec.
+function(_linkforge_name result)
+  get_filename_component(name "${path}" NAME)
+  # The endings of name_of in linkforge_compile/cli/targets.py, in its order.
+  foreach(ending IN ITEMS yaml yml robot xacro urdf)
+    string(REGEX REPLACE "\\.${ending}$" "" name "${name}")
+  endforeach()
+  set(${result} "${name}" PARENT_SCOPE)
 endfunction()
 
-# The functions below see the variables of the one that calls them.
-
-function(_linkforge_refuse why)
-  message(FATAL_ERROR "linkforge_add_robot(${spec}): ${why}")
+function(_linkforge_require_target)
+  if(TARGET "${ROBOT_TARGET}")
+    _linkforge_refuse("there is a target '${ROBOT_TARGET}' already; call that of this one by TARGET")
+  endif()
 endfunction()
 
 function(_linkforge_require_spec)
@@ -113,7 +184,7 @@ function(_linkforge_require_places)
     cmake_path(ABSOLUTE_PATH place BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}" NORMALIZE)
     if(place IN_LIST others)
       _linkforge_refuse(
-        "another one installs '${place}' already; call the files of this one by NAME, or their folder by DESTINATION")
+        "another one installs '${place}' already; ${rename}, or call their folder by DESTINATION")
     endif()
     set_property(GLOBAL APPEND PROPERTY linkforge_installed "${place}")
   endforeach()
@@ -163,10 +234,6 @@ function(_linkforge_options result)
 endfunction()
 
 function(_linkforge_outputs result)
-  if(NOT DEFINED ROBOT_FORMATS)
-    set(ROBOT_FORMATS urdf)
-  endif()
-  list(REMOVE_DUPLICATES ROBOT_FORMATS)
   get_property(others DIRECTORY PROPERTY linkforge_outputs)
   set(outputs)
   # A test holds it to the formats of the Python package whose suffix is their name.
@@ -178,13 +245,10 @@ function(_linkforge_outputs result)
     endif()
     set(output "${CMAKE_CURRENT_BINARY_DIR}/${ROBOT_NAME}.${format}")
     if(output IN_LIST others)
-      _linkforge_refuse("another one makes ${ROBOT_NAME}.${format} already; call the files of this one by NAME")
+      _linkforge_refuse("another one makes ${ROBOT_NAME}.${format} already; ${rename}")
     endif()
     list(APPEND outputs "${output}")
   endforeach()
-  if(TARGET "${ROBOT_TARGET}")
-    _linkforge_refuse("there is a target '${ROBOT_TARGET}' already; call that of this one by TARGET")
-  endif()
   set_property(DIRECTORY APPEND PROPERTY linkforge_outputs ${outputs})
   set(${result} "${outputs}" PARENT_SCOPE)
 endfunction()

@@ -12,17 +12,18 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import XACRO, Arguments, ImportSite, Loader, SpecFile
+from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.expand.uses import charge_entries
 from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
+from linkforge_compile.importers.origin import Origin, digest_of
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Packages, Parameters, Settings, check_alone
+from linkforge_compile.pipeline import Packages, Parameters, Settings, check_alone, compile_source
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlMap, read
+from linkforge_compile.syntax import YamlMap, YamlScalar, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
@@ -40,11 +41,13 @@ _WRONG_ARGUMENTS = (NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER)
 class Import:
     """The result of an import: the text of a spec, and the diagnostics.
 
-    `text` is None if the file is no robot of its format, or does not accept the arguments.
+    `text` is None if the file is no robot of its format, or does not accept the arguments. `origin` is what it was
+    imported from; None for a text that is no file.
     """
 
     text: str | None
     diagnostics: tuple[Diagnostic, ...]
+    origin: Origin | None = None
 
     @property
     def has_errors(self) -> bool:
@@ -136,26 +139,40 @@ def _checker_of(spec: SpecFile, loader: Loader) -> Callable[[YamlMap], Compilati
 @suggestion_budget()
 def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     sink = Diagnostics()
+    loader = settings.loader(urdf.path)
     try:
-        text = _imported_text(urdf, srdf, settings, sink)
+        arguments = settings.arguments(loader, sink)
+        text = _imported_text(urdf, srdf, settings, arguments, loader=loader, sink=sink)
     except BeyondLimitError as beyond:
         sink.abort(beyond)
         text = None
-    return Import(text, sink.sorted())
+    if text is None or urdf.text is not None or not urdf.path.is_file():
+        return Import(text, sink.sorted())
+    return Import(text, sink.sorted(), _origin(urdf.path, srdf, arguments, loader))
 
 
-def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Diagnostics) -> str | None:
-    from linkforge_compile.formats.limits import check_written_twice
+def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, loader: Loader) -> Origin:
+    values = ((name, entry.value) for name, entry in arguments.entries.items())
+    assignments = tuple(f"{name}:={value.text}" for name, value in values if isinstance(value, YamlScalar))
+    # Not the files again: one may be a pipe.
+    texts = {source.path: source.text.encode() for source in loader.sources if source.path}
+    others = (file.read_bytes() for file in loader.files if file not in texts and file.is_file())
+    return Origin(urdf, srdf, assignments, digest_of((*texts.values(), *others)))
+
+
+def _imported_text(
+    urdf: _Urdf, srdf: Path | None, settings: Settings, arguments: Arguments, *, loader: Loader, sink: Diagnostics
+) -> str | None:
+    from linkforge_compile.formats.limits import check_raw_names, check_written_twice
     from linkforge_compile.formats.parts import doubtful_parts_of_urdf
     from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
-    loader = settings.loader(urdf.path)
-    arguments = settings.arguments(loader, sink)
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     declared = semantic.arguments if semantic else None if srdf else frozenset()
-    if urdf.path.suffix.lower() == XACRO:
-        found = _read_xacro(urdf.path, arguments, declared, loader, sink)
+    if urdf.text is None and is_xacro(urdf.path):
+        folder = settings.output or urdf.path.parent
+        found = _read_xacro(urdf.path, arguments, declared, loader, sink, spec_folder=folder)
     else:
         found = _read_urdf(urdf, arguments, declared, loader, sink)
     if found is None or (srdf and semantic is None):
@@ -173,13 +190,23 @@ def _imported_text(urdf: _Urdf, srdf: Path | None, settings: Settings, sink: Dia
     sink.report_all(compiled.diagnostics)
     # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
+        sink.report_all(check_raw_names(compiled.robot))
         sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
         sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
         if settings.output is not None:
             sink.report_all(check_relative_mesh_paths(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
-    return _spec_text(whole, sink) if text is None else text
+    text = _spec_text(whole, sink) if text is None else text
+    if not sink.has_errors:
+        sink.report_all(_faults_of_text(text, urdf.path, settings))
+    return text
+
+
+def _faults_of_text(text: str, urdf: Path, settings: Settings) -> Iterator[Diagnostic]:
+    """Yield the errors of a spec as it is written, at its lines, which its tree did not have."""
+    compiled = compile_source(text, "<spec>", urdf.parent, settings._replace(parameters=None, output=None))
+    yield from (one for one in compiled.diagnostics if one.severity is Severity.ERROR)
 
 
 def _spec_text(imported: Imported, sink: Diagnostics) -> str:
@@ -233,11 +260,13 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Load
     return (file, robot) if file and robot else None
 
 
-def _read_xacro(xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
+def _read_xacro(
+    xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics, *, spec_folder: Path
+) -> _Read | None:
     from linkforge_compile.expand.xacro import XacroUse, read_xacro
 
     use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
-    robot = read_xacro(use, loader, sink, keeps_refused=True)
+    robot = read_xacro(use, loader, sink, keeps_refused=True, spec_folder=spec_folder)
     return (robot[0][0], robot[1]) if robot else None
 
 

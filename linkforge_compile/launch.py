@@ -24,7 +24,7 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
-from linkforge_compile.expand import XACRO
+from linkforge_compile.expand import is_xacro
 from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import SRDF, URDF, Format, Rendering
@@ -150,7 +150,7 @@ class RobotDescription:
 
     def _refuse_unknown(self) -> None:
         # What a xacro file includes may depend on its arguments, and declare more.
-        if self.spec.suffix.lower() == XACRO:
+        if is_xacro(self.spec):
             return
         declared = [one.name for one in self._listing.parameters]
         for name in self._given:

@@ -17,7 +17,6 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
-    XACRO,
     Arguments,
     CliArgument,
     ImportSite,
@@ -27,6 +26,7 @@ from linkforge_compile.expand import (
     arguments_from_text,
     arguments_from_values,
     expand,
+    is_xacro,
 )
 from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
 from linkforge_compile.formats.urdf import Gazebo
@@ -177,7 +177,7 @@ def parameters_of(
     sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
-        if Path(path).suffix.lower() == XACRO:
+        if is_xacro(Path(path)):
             from linkforge_compile.expand.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
@@ -228,7 +228,7 @@ class Settings(NamedTuple):
 def compile_path(path: str | Path, settings: Settings) -> Compilation:
     """Compile a spec file with settings."""
     file = Path(path)
-    if file.suffix.lower() != XACRO:
+    if not is_xacro(file):
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:

@@ -1,4 +1,4 @@
-"""What docs/builds.md says to write for other build systems, and what stands in the package of the examples, run."""
+"""Run the recipes of docs/builds.md for other build systems, and the package of the examples."""
 
 import os
 import re

@@ -82,7 +82,7 @@ class Workspace:
         return {text.split()[0] for text in compiled}
 
     def make_in_vain(self) -> str:
-        """Build what has errors, and return what was said."""
+        """Build a spec with errors, and return the output."""
         run = self._run(self._cmake, "--build", self.build)
         assert run.returncode != 0
         return run.stdout + run.stderr
@@ -293,6 +293,116 @@ def test_a_missing_command_is_reported(tmp_path: Path):
     assert run.returncode != 0
     said = " ".join(run.stderr.split())
     assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in said
+
+
+class Fleet:
+    """A project that compiles three robots, two of which use one module, by `linkforge_add_robots`."""
+
+    def __init__(self, folder: Path, generator: str, linkforge: Linkforge) -> None:
+        self.source, self.build, self.prefix = (folder / name for name in ("src", "build", "install"))
+        self._runs = folder / "runs"
+        counted = folder / "linkforge"
+        folder.mkdir()
+        counted.write_text(f'#!/bin/sh\necho >> "{self._runs}"\nexec "{linkforge.command}" "$@"\n')
+        counted.chmod(0o755)
+        self.source.mkdir()
+        hand = "linkforge: 1\nname: hand\nlinks: {palm: }\n"
+        (self.source / "part.yaml").write_text(hand)
+        semantic = "semantic: {groups: {all: {links: [base]}}}\n"
+        use = "modules: {part: {use: part.yaml, parent: base}}\n"
+        for name, uses in (("arm", use), ("base", ""), ("cell", use)):
+            text = f"linkforge: 1\nname: {name}\nlinks: {{base: }}\n{uses}{semantic}"
+            (self.source / f"{name}.robot.yaml").write_text(text)
+        (self.source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.20)\nproject(fleet NONE)\n"
+            f'find_package(linkforge_compile REQUIRED PATHS "{linkforge.folder / "cmake"}" NO_DEFAULT_PATH)\n'
+            "file(GLOB specs CONFIGURE_DEPENDS *.robot.yaml)\n"
+            "linkforge_add_robots(${specs} TARGET fleet FORMATS urdf srdf INSTALL OUTPUT made)\n"
+            'add_custom_command(OUTPUT joined COMMAND "${CMAKE_COMMAND}" -E echo joining COMMAND "${CMAKE_COMMAND}" '
+            "-E touch joined DEPENDS ${made})\nadd_custom_target(join ALL DEPENDS joined)\n"
+        )
+        self._cmake = program("cmake")
+        made_by = program("ninja" if generator == "Ninja" else "make")
+        run = self._run(
+            *(self._cmake, "-S", self.source, "-B", self.build, "-G", generator, f"-DCMAKE_MAKE_PROGRAM={made_by}"),
+            *(f"-DCMAKE_INSTALL_PREFIX={self.prefix}", f"-DLINKFORGE_EXECUTABLE={counted}"),
+        )
+        assert (run.returncode, "Warning" in run.stderr) == (0, False), run.stderr
+
+    def _run(self, *words: str | Path) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(words, capture_output=True, text=True, check=False, timeout=120)
+
+    def make(self) -> tuple[int, bool, str]:
+        """Build, and return how often linkforge ran, whether what depends on the outputs was built, and the errors."""
+        self._runs.write_text("")
+        run = self._run(self._cmake, "--build", self.build)
+        return (
+            self._runs.read_text().count("\n"),
+            "joining" in run.stdout,
+            run.stdout + run.stderr if run.returncode else "",
+        )
+
+    def install(self) -> None:
+        assert self._run(self._cmake, "--install", self.build).returncode == 0
+
+
+@pytest.mark.parametrize("generator", ["Unix Makefiles", "Ninja"])
+def test_several_robots_are_compiled_by_one_process_when_one_changes(
+    tmp_path: Path, generator: str, linkforge: Linkforge
+):
+    fleet = Fleet(tmp_path / "my ws", generator, linkforge)
+    assert fleet.make() == (1, True, "")
+    assert fleet.make() == (0, False, "")
+    fleet.install()
+    installed = fleet.prefix / "share" / "fleet" / "urdf"
+    names = [f"{name}.{format_}" for name in ("arm", "base", "cell") for format_ in ("srdf", "urdf")]
+    assert sorted(path.name for path in installed.iterdir()) == names
+    # A touched module renews no byte: Ninja then spares what depends on the outputs.
+    os.utime(fleet.source / "part.yaml")
+    assert fleet.make() == (1, generator != "Ninja", "")
+    assert fleet.make() == (0, False, "")
+    base = (fleet.build / "base.urdf").stat().st_mtime_ns
+    (fleet.source / "part.yaml").write_text("linkforge: 1\nname: hand\nlinks: {finger: }\n")
+    assert fleet.make() == (1, True, "")
+    assert "finger" in (fleet.build / "cell.urdf").read_text()
+    assert ((fleet.build / "base.urdf").stat().st_mtime_ns == base) is (generator == "Ninja")
+    assert fleet.make() == (0, False, "")
+
+
+@pytest.mark.parametrize("generator", ["Unix Makefiles", "Ninja"])
+def test_an_error_in_one_of_several_robots_stops_the_build(tmp_path: Path, generator: str, linkforge: Linkforge):
+    fleet = Fleet(tmp_path / "fleet", generator, linkforge)
+    arm = fleet.source / "arm.robot.yaml"
+    right = arm.read_text()
+    arm.write_text(right.replace("links: [base]", "links: [bass]"))
+    for _ in range(2):
+        runs, is_joined, errors = fleet.make()
+        assert (runs, is_joined) == (1, False)
+        assert f"{arm}:5:35: error: " in errors
+    arm.write_text(right)
+    assert fleet.make() == (1, True, "")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("arm.robot.yaml", "TARGET is missing, the name of the target of all these robots"),
+        ("TARGET all_robots", "it takes one spec or more before its keywords"),
+        ("arm.robot.yaml amr.robot.yaml TARGET r", "there is no spec '"),
+        (
+            "arm.robot.yaml ./arm.robot.yaml TARGET r",
+            "makes arm.urdf already; add this one by linkforge_add_robot, with",
+        ),
+        ("arm.robot.yaml TARGET r FORMATS sdf", "FORMATS takes urdf and srdf, found 'sdf'"),
+    ],
+)
+def test_wrong_arguments_of_several_robots_are_reported_when_cmake_configures(
+    tmp_path: Path, arguments: str, message: str
+):
+    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+    run = script(tmp_path, f"{find}\nlinkforge_add_robots({arguments})", "-DLINKFORGE_EXECUTABLE=true")
+    assert run.returncode != 0
+    assert message in " ".join(run.stderr.split())
 
 
 def test_the_formats_that_cmake_knows_are_those_of_the_package():

@@ -39,7 +39,7 @@ SHAPES = frozenset({"box", "cylinder", "sphere", "capsule", "mesh"})
 
 
 class Said(NamedTuple):
-    """How the language says a class: the titles of its objects, its renamed fields, and what only one side has."""
+    """How the language has a class: the titles of its objects, its renamed fields, and those of one side only."""
 
     titles: tuple[str, ...]
     renamed: Mapping[str, str | frozenset[str]] = FrozenMap()
@@ -97,12 +97,12 @@ LANGUAGE: dict[type, Said] = {
     joint.JointCalibration: Said(("a joint's calibration",)),
     measuring.Sensor: Said(("a sensor",), {"link_name": "link", **INFOS}, KEY),
     measuring.SensorNoise: Said(("a noise",), {}, STATED),
-    measuring.CameraInfo: Said(("a camera's picture",)),
-    measuring.LidarInfo: Said(("a laser scanner's rays",)),
-    measuring.IMUInfo: Said(("an inertial unit's noise",)),
-    measuring.GPSInfo: Said(("a satellite receiver's noise",)),
-    measuring.ContactInfo: Said(("what a contact sensor feels with",)),
-    measuring.ForceTorqueInfo: Said(("how a force and torque sensor measures",)),
+    measuring.CameraInfo: Said(("a camera's settings",)),
+    measuring.LidarInfo: Said(("a lidar's settings",)),
+    measuring.IMUInfo: Said(("an IMU's noise",)),
+    measuring.GPSInfo: Said(("a GPS receiver's noise",)),
+    measuring.ContactInfo: Said(("a contact sensor's settings",)),
+    measuring.ForceTorqueInfo: Said(("a force-torque sensor's settings",)),
     driving.Transmission: Said(("a transmission",), {}, KEY),
     driving.TransmissionJoint: Said(("a joint of a transmission",), {}, KEY | STATED | NO_INTERFACES),
     driving.TransmissionActuator: Said(("an actuator",), {}, KEY | STATED | NO_INTERFACES),

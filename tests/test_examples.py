@@ -210,7 +210,7 @@ def test_two_arms_are_two_of_the_same_arm():
 
 
 def placed(robot: Robot, state: str, group: str) -> dict[str, np.ndarray]:
-    """Where the origin of each link is in the root's frame, in metres, with the joints as a group state says."""
+    """Where the origin of each link is in the root's frame, in metres, with the joints as in a group state."""
     pinocchio = pytest.importorskip("pinocchio")
     model = pinocchio_model(render_urdf(robot))
     q = pinocchio.neutral(model)

@@ -19,7 +19,7 @@ SECONDS = 10  # of work: another's load on the machine is not the file's doing
 LONGEST_WAIT = 300
 
 Make = Callable[[Path], str | bytes]
-"""Writes what a spec needs beside itself, and returns the spec."""
+"""Writes the other files that a spec needs, and returns the spec."""
 
 
 def _limited() -> None:

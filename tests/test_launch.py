@@ -1,4 +1,4 @@
-"""`linkforge_compile.launch` under the packages of ROS 2 that it is for, or stand-ins where there is no ROS."""
+"""`linkforge_compile.launch` with the launch packages of ROS 2, or stand-ins if there is no ROS."""
 
 import gc
 import importlib
@@ -49,7 +49,7 @@ semantic: {groups: {all: {links: [base]}}}
 
 
 class Ros(NamedTuple):
-    """The module under test, and what stands in for ROS."""
+    """The module under test, and the stand-ins for ROS."""
 
     ours: ModuleType
     launch: ModuleType
@@ -73,7 +73,7 @@ def spec(tmp_path: Path) -> Path:
 
 
 def launched(ros: Ros, robot: object, /, **typed: str) -> object:
-    """Return the context of a launch, behind the robot's arguments, with those that somebody typed."""
+    """Return the context of a launch after the robot's arguments, with the given ones."""
     return launch_with(ros, robot.arguments, **typed)
 
 

@@ -49,7 +49,7 @@ def test_a_spec_reads_in_the_nearest_package_or_repository_above_it(marker: str,
 
 
 def test_a_path_that_climbs_out_of_a_package_does_not_lie_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    """Whoever stands in his own package and compiles a stranger's robot by `../..` opens none of his to it."""
+    """Compiling an untrusted robot by `../..` from a package does not open that package to it."""
     written(tmp_path / "mine" / "package.xml", "<package><name>mine</name></package>")
     mine = written(tmp_path / "mine" / "part.robot.yaml")
     work = tmp_path / "mine" / "work"
@@ -114,7 +114,7 @@ def test_what_is_refused_tells_of_no_link_where_it_leads(file: str, told: str, t
 
 @pytest.fixture
 def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder that nobody may look into, not even root, who runs tests in containers."""
+    """A folder that cannot be read, not even by root, who runs tests in containers."""
     folder = tmp_path / "closed"
 
     def refusing(look: Callable[..., object]) -> Callable[..., object]:
@@ -147,7 +147,7 @@ MESH = "{visual: {mesh: 'CLOSED/x.stl'}}"
 )
 @pytest.mark.parametrize("allow_outside", [False, True])
 def test_what_may_not_be_read_is_reported_at_its_place(section: str, code: str, allow_outside: bool, closed: Path):
-    """The rest is told as ever."""
+    """The rest is reported as usual."""
     text = f"linkforge: 1\nname: cell\nbogus: 1\n{section}\n".replace("CLOSED", str(closed))
     spec = written(closed.parent / "cell" / "cell.robot.yaml", text)
     told = check_file(spec, allow_outside=allow_outside).diagnostics
@@ -159,7 +159,7 @@ def test_what_may_not_be_read_is_reported_at_its_place(section: str, code: str, 
 
 
 def test_what_is_refused_is_not_looked_for(tmp_path: Path):
-    """A file that is there, one that is not, and a folder are told alike: a stranger learns nothing of them."""
+    """An existing file, a missing one and a folder give the same report, so a stranger learns nothing of them."""
     written(tmp_path / "part.robot.yaml")
     (tmp_path / "folder.robot.yaml").mkdir()
     for name in ("part", "folder", "missing"):
@@ -168,7 +168,7 @@ def test_what_is_refused_is_not_looked_for(tmp_path: Path):
 
 
 def test_a_spec_in_an_unsearchable_folder_is_reported(closed: Path):
-    """And no `package.xml` beside it, for which nobody asked."""
+    """And no `package.xml` next to it."""
     [unreadable] = check_file(closed / "arm.robot.yaml").diagnostics
     assert str(unreadable).endswith(f"'{closed}/arm.robot.yaml' cannot be read: permission denied [LF3002]")
 
@@ -184,7 +184,7 @@ def through_a_link_to_a_folder(folder: Path) -> str:
 
 
 def back_through_a_link(folder: Path) -> str:
-    """`..` behind a link is the folder above where it leads."""
+    """`..` after a link is the folder above the link's target."""
     (folder / "elsewhere").mkdir()
     (folder / "cell" / "link").symlink_to(folder / "elsewhere")
     return "link/../part.robot.yaml"
@@ -244,7 +244,7 @@ MESH_OF_SECRET = "links: {base: {visual: {mesh: 'package://secret/part.stl'}}}\n
 
 @pytest.mark.parametrize(("allow_outside", "told"), [(False, ["LF3005"]), (True, ["LF6021"])])
 def test_a_manifest_that_is_a_link_out_names_no_package(allow_outside: bool, told: list[str], tmp_path: Path):
-    """Else whoever asks by `package://` learns whether that file is there and what it says."""
+    """Otherwise `package://` would reveal whether that file exists and what it contains."""
     written(tmp_path / "far" / "package.xml", SECRET)
     spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://secret/part.robot.yaml")
     written(spec.parent / "part.robot.yaml", f"linkforge: 1\nname: part\n{MESH_OF_SECRET}")

@@ -125,7 +125,7 @@ def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path
 
 
 def test_cmake_finds_what_pip_installs_and_compiles_with_it(wheel: Path, tmp_path: Path):
-    """As in an environment that is active: its `bin` is on the PATH, and nobody says where linkforge is."""
+    """As in an environment that is active: its `bin` is on the PATH, and no option names linkforge."""
     site, source, build = tmp_path / "site", tmp_path / "source", tmp_path / "build"
     subprocess.run((*PIP, "install", "--no-deps", "--target", site, wheel), check=True, timeout=120)
     source.mkdir()

@@ -70,6 +70,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     ros2_control.check_hardware_is_used,
     sensors.check_gazebo_references,
     sensors.check_plugin_joints,
+    sensors.check_plugin_files,
     sensors.check_simulated_hardware,
     gazebo.check_massless_bodies,
     gazebo.check_tiny_masses,

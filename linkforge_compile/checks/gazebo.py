@@ -105,7 +105,7 @@ def check_merged_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
 def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A link that a Gazebo plugin names is one that Gazebo keeps.
 
-    It merges a link that hangs on a fixed joint into the link above, and a plugin that searches for it by name finds
+    It merges the child of a fixed joint into the link above, and a plugin that searches for it by name finds
     nothing. Name the link above, or write `preserveFixedJoint: true` in the `gazebo` of the joint.
     """
     plugins = [(block, plugin) for block in robot.gazebo_elements for plugin in block.plugins]

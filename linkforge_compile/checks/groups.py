@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     CHAIN_ACROSS,
     CHAIN_UPWARD,
-    GROUP_CIRCLE,
+    GROUP_CYCLE,
     GROUP_WITHOUT_JOINT,
     NO_ARM,
     OWN_PARENT_GROUP,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A group may contain groups, but not itself, not even by way of others.
 
-    MoveIt drops every group of such a circle. Take one of the subgroups out.
+    MoveIt drops every group of such a cycle. Take one of the subgroups out.
     """
     subgroups = {
         group.name: [
@@ -40,7 +40,7 @@ def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
         for group in robot.semantic.groups
         if group.subgroups
     }
-    yield from report_cycles(subgroups, GROUP_CIRCLE)
+    yield from report_cycles(subgroups, GROUP_CYCLE)
 
 
 def check_chains(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:
@@ -172,7 +172,7 @@ class LinkSets:
     def of_groups(self) -> Mapping[str, int]:
         """The set of links that each group moves, and with them its joints: a link hangs on one joint.
 
-        Groups with an unknown name are left out, and all groups while they contain one another in a circle.
+        Groups with an unknown name are left out, and all groups while they contain one another in a cycle.
         """
         groups = {group.name: group for group in reversed(tuple(self._robot.semantic.groups))}
         try:

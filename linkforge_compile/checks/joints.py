@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.codes.model import (
     EMPTY_RANGE,
     FAST_JOINT,
     IDLE_SOFT_LIMIT,
-    MIMIC_CIRCLE,
+    MIMIC_CYCLE,
     MIMIC_FREEDOM,
     MIMIC_OUTSIDE_LIMITS,
     MIMIC_STANDS_STILL,
@@ -131,10 +131,10 @@ def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Di
 def check_mimic_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint may mimic one that mimics another, but at the end of the row one must be free.
 
-    In a circle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
-    the circle lead, without `mimic`, and the others mimic that.
+    In a cycle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of
+    the cycle lead, without `mimic`, and the others mimic that.
     """
-    yield from report_cycles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CIRCLE)
+    yield from report_cycles({name: (use,) for name, use in _mimics(robot).items()}, MIMIC_CYCLE)
 
 
 def check_mimic_freedom(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_LINK,
     UNKNOWN_PLUGIN_JOINT,
 )
-from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN
+from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN, UNRESOLVED_PACKAGE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboPlugin
@@ -209,6 +209,23 @@ def check_simulated_hardware(robot: Robot, unresolved: UnresolvedNames) -> Itera
         if needed:
             ref = Reference(control.name, f"ros2_control '{control.name}'", control.source, ("hardware_plugin",))
             yield ref.report(NO_SIMULATOR_PLUGIN, plugin=control.hardware_plugin, needed=needed)
+
+
+def check_plugin_files(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The `parameters` of a plugin that runs ros2_control in Gazebo are names of files as they are, not `package://`.
+
+    The plugin hands them to ROS, which opens them under just that name: without the file, Gazebo runs without
+    controllers. In a spec, `$(path('package://robot_bringup/config/controllers.yaml'))` is the file on this machine.
+    """
+    for plugin in _plugins(robot):
+        files = plugin.parameters.get("parameters", ()) if "ros2_control" in plugin.filename else ()
+        for path, text in [((), files)] if isinstance(files, str) else [((at,), one) for at, one in enumerate(files)]:
+            if isinstance(text, str) and text.strip().startswith("package://"):
+                name = text.strip()
+                package = name.removeprefix("package://").partition("/")[0]
+                place = ("parameters", "parameters", *path)
+                ref = Reference(plugin.name, f"plugin '{plugin.name}'", plugin.source, place)
+                yield ref.report(UNRESOLVED_PACKAGE, plugin=plugin.name, path=name, package=package)
 
 
 def check_gazebo_references(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames, Where
-from linkforge_compile.diagnostics.codes.model import LINK_CIRCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
+from linkforge_compile.diagnostics.codes.model import LINK_CYCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
 
 _USUAL_ROOT = "base_link"
@@ -58,7 +58,7 @@ def check_second_parents(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
 
     URDF describes trees: readers refuse a link with two parents, or keep one of them in silence. Where a
     mechanism closes a loop, cut it at one joint and describe the loop to the simulator; where a joint was
-    copied, correct the child. A joint that leads back up the tree is reported as a circle.
+    copied, correct the child. A joint that leads back up the tree is reported as a cycle.
     """
     joints_above: dict[str, list[Joint]] = {}
     for joint in robot.joints:
@@ -84,11 +84,11 @@ def _way_to_one_parent(joint: Joint, first: Joint) -> str:
 def check_link_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No link is its own ancestor.
 
-    Such links have no place in the world, and readers that walk the tree never end. One joint of the circle
+    Such links have no place in the world, and readers that walk the tree never end. One joint of the cycle
     has the wrong parent or child, or the two were swapped.
     """
     if find_tree_root(robot.links, robot.joints) is None:
-        yield from report_cycles(joint_graph(robot), LINK_CIRCLE)
+        yield from report_cycles(joint_graph(robot), LINK_CYCLE)
 
 
 def check_single_root(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -195,4 +195,6 @@ def as_urdfs(
 
 
 def _is_xacro(word: str) -> bool:
-    return Path(word).suffix.lower() == ".xacro"
+    from linkforge_compile.expand import is_xacro
+
+    return is_xacro(Path(word))

@@ -25,7 +25,7 @@ def order_differences(path: tuple[str, ...], before: object, after: object) -> I
         case (Link(), Link()):
             yield from _recolored_shapes(path, before, after)
         case (Material(), Material()) if path[0] == "materials" and before.after_links != after.after_links:
-            was, now = ("behind the links" if one.after_links else "before the links" for one in (before, after))
+            was, now = ("after the links" if one.after_links else "before the links" for one in (before, after))
             here = (*path, "after_links")
             yield Difference(Kind.CHANGED, here, before.after_links, after.after_links, f"{was} → {now}")
 

@@ -78,6 +78,6 @@ def _moved_links(before: Robot, after: Robot, renames: Renames) -> Iterator[Diff
 
 
 def _describe_move(before: str | None, after: str | None) -> str:
-    if before is None:
-        return f"hangs on '{after}', was the root"
-    return f"is the root, was on '{before}'" if after is None else f"hangs on '{after}', was on '{before}'"
+    was = "the root" if before is None else f"attached to '{before}'"
+    now = "the root" if after is None else f"attached to '{after}'"
+    return f"is {now}, was {was}"

@@ -12,7 +12,7 @@ What each module knows; it imports only those above it:
     parameters        a declaration -> type and constraints, which convert a value or refuse it
     parameter_values  declaration, arguments, variants -> the value in force
     file_scope        one use of a file -> the names, values and functions that its expressions know
-    merge_objects     objects in their long form; `defaults` -> merged into links, joints and sensors
+    defaults          objects in their long form; `defaults` -> merged into links, joints and sensors
     override          a patch and a tree -> the patched tree
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
@@ -34,9 +34,9 @@ from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.spec_tree import is_computed
 from linkforge_compile.expand.uses import (
     COMPUTING,
-    XACRO,
     Instance,
     charge_entries,
+    is_xacro,
     mesh_base,
     mesh_finder,
     own_name,
@@ -44,7 +44,6 @@ from linkforge_compile.expand.uses import (
 )
 
 __all__ = [
-    "XACRO",
     "Arguments",
     "CliArgument",
     "ImportSite",
@@ -55,6 +54,7 @@ __all__ = [
     "arguments_from_text",
     "arguments_from_values",
     "expand",
+    "is_xacro",
 ]
 
 

@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.uses import XACRO
+from linkforge_compile.expand.uses import is_xacro
 from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
@@ -184,7 +184,7 @@ def names_in_variant(variant: str | None, known: Container[str]) -> tuple[str, .
 
 def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
     """Return the names of the variants of a file; none if it cannot be read, which its compile reports."""
-    if path.suffix.lower() == XACRO:
+    if is_xacro(path):
         return ()
     try:
         spec = loader.open(path, Diagnostics())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT, UNKNOWN_NAME
 from linkforge_compile.diagnostics.codes.modules import (
     CONDITION_KIND,
@@ -13,12 +13,17 @@ from linkforge_compile.diagnostics.codes.modules import (
     FOR_NAME_TAKEN,
     INVALID_VARIABLE_NAME,
     KEY_WITHOUT_NAME,
-    LONG_FORM,
     RESERVED_KEY,
     RESERVED_NAME,
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator, report_interpolated_number
+from linkforge_compile.expand.repetition_words import (
+    FOR_AND_WHEN,
+    repeats_tag,
+    repetition_words,
+    without_words,
+)
 from linkforge_compile.expand.values import Setting, describe, node_of, with_final_paths
 from linkforge_compile.expressions import (
     FAULT,
@@ -35,8 +40,6 @@ from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, to_fault
-
-_FOR_AND_WHEN = frozenset({"for", "when"})
 
 _NAMES_ITS_JOINT = frozenset({"a frame", "a module"})
 """The titles of entries that have a joint named after them, unless `joint` gives it a name."""
@@ -58,7 +61,7 @@ def expand_node(
         case YamlScalar():
             return validate_computed(_expand_scalar(node, evaluator, shape, is_free), key, shape, evaluator.sink)
         case YamlList():
-            item_shape = shape.item or (shape if shape.is_object else FREE)
+            item_shape = shape.item or (shape if shape.is_object or shape.is_for_plugins else FREE)
             items = (
                 expand_node(copy, inner, item_shape, key=key, is_free=is_free)
                 for item in node
@@ -82,7 +85,7 @@ def expand_part(node: YamlNode, evaluator: Evaluator, shape: Shape, key: str) ->
 def expand_entries(node: YamlMap, evaluator: Evaluator, shape: Shape) -> Iterator[tuple[Evaluator, YamlEntry]]:
     """Yield each entry of a map as often as it occurs, still as written, with the evaluator for it."""
     if shape.has_names and node.entries.keys() & WORDS:
-        node, evaluator = _without_words(node, shape, evaluator)
+        node, evaluator = _without_misplaced_words(node, shape, evaluator)
     for entry in node:
         value = entry.value
         if shape.has_names and has_expression(entry.name):
@@ -94,11 +97,14 @@ def expand_entries(node: YamlMap, evaluator: Evaluator, shape: Shape) -> Iterato
             yield evaluator, entry
             continue
         value_shape = shape.under(entry.name)
-        if not shape.has_names and value_shape.may_repeat and isinstance(value, YamlMap) and "for" in value.entries:
+        is_item = (
+            not shape.has_names and value_shape.may_repeat and isinstance(value, YamlMap) and "for" in value.entries
+        )
+        if is_item or repeats_tag(entry, shape, evaluator):
             # A single object with `for` is an item of the list that may be written in its place.
             yield evaluator, YamlEntry(entry.key, YamlList((value,), value.span))
             continue
-        key = entry.key if shape.has_names else None
+        key = entry.key if shape.has_names or shape.is_for_plugins else None
         for inner, copy in _occurrences(value, value_shape, evaluator, key=key):
             yield inner, entry if copy is value else YamlEntry(entry.key, copy)
 
@@ -162,12 +168,12 @@ def _occurrences(
     An entry of a map of names has a `key`, which must mention all `for` names. An entry or list item (`is_item`) that
     is not an object uses the long form. A faulty `for` or `when` is reported, and yields a YamlFault once.
     """
-    may_repeat = (shape.is_object or key is not None or is_item) and not shape.is_plain
-    if not (may_repeat and isinstance(node, YamlMap) and _FOR_AND_WHEN & node.entries.keys()):
+    words = repetition_words(node, shape, is_entry=key is not None or is_item)
+    if not words or not isinstance(node, YamlMap):
         yield evaluator, node
         return
-    body = _body(node, shape, evaluator.sink)
-    condition, names = node.get("when"), node.get("for")
+    body = without_words(node, words, shape, evaluator.sink)
+    condition, names = (node.get(word) if word in words else None for word in ("when", "for"))
     if body is None or isinstance(condition, YamlFault) or isinstance(names, YamlFault):
         yield evaluator, YamlFault(node.span)
         return
@@ -180,7 +186,7 @@ def _occurrences(
         yield evaluator, YamlFault(node.span)
 
 
-def _without_words(node: YamlMap, shape: Shape, evaluator: Evaluator) -> tuple[YamlMap, Evaluator]:
+def _without_misplaced_words(node: YamlMap, shape: Shape, evaluator: Evaluator) -> tuple[YamlMap, Evaluator]:
     """Return a map of names without misplaced words of repetition, which are reported, and its evaluator.
 
     The names of a misplaced `for` are faults to the evaluator, not unknown names.
@@ -188,7 +194,7 @@ def _without_words(node: YamlMap, shape: Shape, evaluator: Evaluator) -> tuple[Y
     entries = {name: entry for name, entry in node.entries.items() if name not in WORDS}
     example = next((name for name in entries if has_expression(name)), next(iter(entries), "…"))
     for word in (entry.key for entry in node if entry.name in WORDS):
-        hint = f"; it goes inside the entry: '{example}: {{{word.text}: …}}'" if word.text in _FOR_AND_WHEN else ""
+        hint = f"; it goes inside the entry: '{example}: {{{word.text}: …}}'" if word.text in FOR_AND_WHEN else ""
         evaluator.sink.report(RESERVED_KEY.at(word.span, name=word.text, owner=shape.things, way_out=hint))
     names = node.get("for")
     return YamlMap(entries, node.span), evaluator.with_faults(names.entries if isinstance(names, YamlMap) else {})
@@ -199,20 +205,6 @@ class _Entry(NamedTuple):
 
     key: YamlScalar
     title: str
-
-
-def _body(node: YamlMap, shape: Shape, sink: Diagnostics) -> YamlNode | None:
-    """Return what occurs; None for a malformed long form, which is reported."""
-    if shape.is_object and not (shape.has_short_form and "value" in node.entries):
-        return YamlMap({name: entry for name, entry in node.entries.items() if name not in _FOR_AND_WHEN}, node.span)
-    others = [entry.key for entry in node if entry.name not in _FOR_AND_WHEN | {"value"}]
-    if any(isinstance(entry.value, YamlFault) for entry in node):
-        return None  # the schema reported it
-    if others or "value" not in node.entries:
-        where = others[0].span if others else next(iter(node)).key.span
-        sink.report(LONG_FORM.at(where, found=f"'{others[0].text}'" if others else "no 'value'"))
-        return None
-    return node.entries["value"].value
 
 
 def _occur_once(

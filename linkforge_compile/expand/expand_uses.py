@@ -8,23 +8,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CIRCLE, USE_TOO_DEEP
+from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CYCLE, USE_TOO_DEEP
 from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
+from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
-from linkforge_compile.expand.merge_objects import compute_defaults, with_defaults
 from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expand.uses import (
     SPEC_ENDINGS,
-    XACRO,
     Instance,
     NameReference,
     PathSite,
     Writers,
     charge_entries,
+    is_xacro,
     locate,
     mesh_base,
     mesh_finder,
@@ -109,7 +109,7 @@ class _Expansion:
         tree, defaults = _robot_tree(use.spec, scope.evaluator)
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
         removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
-        references = scope.builtins.references
+        references = tuple(scope.references)
         if use.entry and use.entry.overrides:
             body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
             references = references_left(references, tree, body.tree) if references else references
@@ -139,7 +139,7 @@ class _Expansion:
         if entry.use is None:
             return _unread(entry)
         sink = scope.evaluator.sink
-        spec, arguments = self._open_robot(entry, scope.builtins.site(entry.use.text, entry.use.span), scope)
+        spec, arguments = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
         if spec is None:
             return _unread(entry)
         bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
@@ -156,7 +156,7 @@ class _Expansion:
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
-        srdf_use = self._xacro_use(scope.builtins.site(srdf.text, srdf.span), entry, sink)
+        srdf_use = self._xacro_use(scope.site(srdf.text, srdf.span), entry, sink)
         semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
         # An SRDF that cannot be read may have used any argument.
         used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()
@@ -170,12 +170,20 @@ class _Expansion:
     ) -> tuple[SpecFile | None, Arguments]:
         """Return the file at a site, and the arguments left for it; its SRDF has `used` some, None if unknown."""
         loader = self._state.loader
-        if not site.text.lower().endswith(XACRO):
+        if not self._is_xacro(site):
             return open_use(site, loader, sink), entry.arguments.without(used or ())
         from linkforge_compile.expand.xacro import open_xacro
 
         xacro = self._xacro_use(site, entry, sink)
         return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
+
+    def _is_xacro(self, site: PathSite) -> bool:
+        """Whether a site names a xacro; of a file outside of the roots nothing but its name is looked at."""
+        roots = self._state.loader.roots
+        target = locate(site, self._state.loader, Diagnostics())
+        if target is None or not roots.hold(target.path):
+            return site.text.lower().endswith(".xacro")
+        return is_xacro(target.path)
 
     def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
         from linkforge_compile.expand.xacro import XacroUse
@@ -222,7 +230,7 @@ def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
         Note(f"'{name}' is used here", use.bound.use)
         for name, use in zip(path[1:-1], reversed(chain[1:-1]), strict=True)
     ]
-    return USE_CIRCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)
+    return USE_CYCLE.at(chain[0].bound.use, path=" → ".join(path), notes=notes)
 
 
 def references_left(
@@ -237,7 +245,7 @@ def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion
     """Read an SRDF, expanded if it is a xacro; None after a reported error."""
     from linkforge_compile.expand.xacro import Expansion, expand_xacro
 
-    if use.path.suffix.lower() == XACRO:
+    if loader.roots.hold(use.path) and is_xacro(use.path):
         # The URDF, which is read next, reports arguments that neither of the two uses.
         return expand_xacro(replace(use, used_elsewhere=None), loader, sink)
     file = loader.open_xml(use.path, sink, use.used if use.used.where else None)

@@ -96,7 +96,10 @@ class FileScope:
         }
         self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
         self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
-        self.builtins = FileBuiltins(spec, prefix, lambda: self.packages, state.loader, include_stack)
+        self._prefix = prefix
+        self._include_stack = include_stack
+        self.references: list[NameReference] = []
+        """The names passed to `link()` and `joint()`, for a later check."""
         values: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
             "standalone": bound.use is None,
@@ -106,7 +109,9 @@ class FileScope:
             **self._parameters,
             **dict.fromkeys(self._ambiguous, FAULT),
         }
-        scope = Scope(values, self._unread_names(), self.builtins.functions, self._loader.budget)
+        functions: dict[str, FileFunction] = {"path": self._find_path}
+        functions |= {kind: partial(self._with_prefix, kind) for kind in ("link", "joint")}
+        scope = Scope(values, self._unread_names(), functions, self._loader.budget)
         self.evaluator = Evaluator(scope, state.expressions, sink, self._paths_elsewhere())
 
     @property
@@ -117,6 +122,18 @@ class FileScope:
             self._packages = dict(self._spec.packages)
             self._packages.update(self._declared_packages())
         return self._packages
+
+    def site(self, text: str, where: Span) -> PathSite:
+        """Return the site of a path that this file or one that it includes wrote."""
+        return PathSite(text, where, self._spec.part_at(where), self.packages)
+
+    def _find_path(self, text: str, where: Span, sink: Diagnostics) -> Value | Fault:
+        target = locate(self.site(text, where), self._loader, sink)
+        return FAULT if target is None else str(target.path.absolute())
+
+    def _with_prefix(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
+        self.references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
+        return FAULT if isinstance(self._prefix, Fault) else self._prefix + name
 
     def _declared_packages(self) -> dict[str, Path]:
         section = self._spec.tree.get("packages")
@@ -212,7 +229,7 @@ class FileScope:
             found = "nothing" if path is None else kind_name(path)
             self._sink.report(DATA_NOT_PATH.at(entry.value.span, name=entry.name, found=found))
             return FAULT
-        site = self.builtins.site(text, self.evaluator.place(entry.value))
+        site = self.site(text, self.evaluator.place(entry.value))
         target = locate(site, self._loader, self._sink)
         tags = angle_tags(self._sink)
         node = self._loader.open_data(target.path, self._sink, tags, site.used) if target else None
@@ -297,44 +314,3 @@ class _TextFaultSink(Diagnostics):
     def report(self, diagnostic: Diagnostic) -> None:
         if diagnostic.code in WITHOUT_VALUES:
             self._sink.report(diagnostic)
-
-
-class FileBuiltins:
-    """The functions of one use of a file; collects names passed to `link()` and `joint()` for a later check."""
-
-    def __init__(
-        self,
-        spec: SpecFile,
-        prefix: str | Fault,
-        packages: Callable[[], Mapping[str, Path]],
-        loader: Loader,
-        include_stack: tuple[Span, ...],
-    ) -> None:
-        """`prefix` is the full one, of this use and those around it; `packages` is called when a path is located."""
-        self._spec = spec
-        self._prefix = prefix
-        self._packages = packages
-        self._loader = loader
-        self._include_stack = include_stack
-        self._references: list[NameReference] = []
-
-    @property
-    def references(self) -> tuple[NameReference, ...]:
-        return tuple(self._references)
-
-    @property
-    def functions(self) -> dict[str, FileFunction]:
-        named = {kind: partial(self._prefixed, kind) for kind in ("link", "joint")}
-        return {"path": self._path, **named}
-
-    def site(self, text: str, where: Span) -> PathSite:
-        """Return the site of a path that this file or one that it includes wrote."""
-        return PathSite(text, where, self._spec.part_at(where), self._packages())
-
-    def _path(self, text: str, where: Span, sink: Diagnostics) -> Value | Fault:
-        target = locate(self.site(text, where), self._loader, sink)
-        return FAULT if target is None else str(target.path.absolute())
-
-    def _prefixed(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
-        self._references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
-        return FAULT if isinstance(self._prefix, Fault) else self._prefix + name

@@ -119,7 +119,7 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
     for entry in spec.tree.section("modules").values():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
         if isinstance(use, YamlScalar) and use.text not in listed and use.text.lower().endswith(SPEC_ENDINGS):
-            used = open_use(scope.builtins.site(use.text, use.span), loader, ignored)
+            used = open_use(scope.site(use.text, use.span), loader, ignored)
             if used:
                 listed[use.text] = list_parameters(used, loader, ignored)
     return listed

@@ -16,10 +16,10 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
+from linkforge_compile.expand.defaults import with_frames_as_joints
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.loader import SpecFile
-from linkforge_compile.expand.merge_objects import with_frames_as_joints
 from linkforge_compile.expand.override import SECTIONS, Override, apply_patch, deletes, report_empty
 from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.expand.values import describe_node

@@ -18,7 +18,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     SAME_AS_BEFORE,
 )
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.merge_objects import (
+from linkforge_compile.expand.defaults import (
     CHOICES,
     is_set,
     lists_objects,

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
     ENTRY_IN_TWO_FILES,
-    INCLUDE_CIRCLE,
+    INCLUDE_CYCLE,
     INCLUDE_NOT_PLAIN,
     INCLUDE_TOO_DEEP,
     INCLUDED_TWICE,
@@ -263,7 +263,7 @@ class _Composer:
             return False
         if known in chain.files:
             names = [Path(file.name).name for file in (*chain.files[chain.files.index(known) :], known)]
-            self._sink.report(INCLUDE_CIRCLE.at(item.span, path=" → ".join(names)))
+            self._sink.report(INCLUDE_CYCLE.at(item.span, path=" → ".join(names)))
         else:
             notes = [Note("included here first", known.included)]
             self._sink.report(INCLUDED_TWICE.at(item.span, path=item.text, notes=notes))

@@ -14,15 +14,23 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.paths import Package, find_package, follow, unknown_package
 from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source.characters import UnreadableError
+from linkforge_compile.source.read_file import read_bytes
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
+_XML_OF_ROBOTS = (_URDF_ENDING, ".srdf")
+_ROOT_OF_XACRO = re.compile(rb"<[A-Za-z][^>]*\sxmlns:xacro\s*=")
+_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
+_DEFINITION = re.compile(rb"<xacro:(?:include|macro|property|arg|if|unless)\b")
+"""What every xacro has; files that xacro has written may have calls that are left over."""
+_SUBSTITUTION = re.compile(rb"\$\((?:find|arg|env|optenv)\s")
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
 _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 _ZERO_BYTE = "no path holds a zero byte"
@@ -47,6 +55,27 @@ class Target(NamedTuple):
 
     path: Path
     package: Package | None = None
+
+
+def is_xacro(path: Path) -> bool:
+    """Whether xacro expands a file: by its name, or a URDF or SRDF whose root declares xacro and that is not expanded.
+
+    A file that cannot be read is none; whatever reads it next reports that.
+    """
+    name = path.name.lower()
+    if name.endswith(XACRO):
+        return True
+    if not name.endswith(_XML_OF_ROBOTS):
+        return False
+    try:
+        content = read_bytes(path, MAX_FILE_BYTES, only_regular=True) or b""
+    except UnreadableError:
+        return False
+    content = _COMMENT.sub(b"", content)
+    if not _ROOT_OF_XACRO.search(content):
+        return False
+    is_named = f"{XACRO}." in name
+    return _DEFINITION.search(content) is not None or (is_named and _SUBSTITUTION.search(content) is not None)
 
 
 def open_use(site: PathSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:

@@ -22,6 +22,7 @@ from linkforge_compile.expressions import (
     passed_on,
     seen_from_compiled,
 )
+from linkforge_compile.expressions.operators import AXES
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import Key, Origin, Span, TracedSpan
 from linkforge_compile.source.provenance import Kind
@@ -137,7 +138,6 @@ def describe_node(node: YamlNode) -> str:
 
 ValuePath: TypeAlias = tuple[str | int, ...]
 
-_AXES = {"x": 0, "y": 1, "z": 2}
 _MOST_STEPS = 10_000
 _LONGEST_TEXT = 60
 
@@ -295,7 +295,7 @@ def _part(node: YamlNode, key: str | int) -> YamlNode | None:
     if isinstance(node, YamlMap):
         return node.child(str(key))
     if isinstance(node, YamlList):
-        position = _AXES.get(key) if isinstance(key, str) else key
+        position = AXES.get(key) if isinstance(key, str) else key
         if position is not None and -len(node) <= position < len(node):
             return node.items[position]
     return None

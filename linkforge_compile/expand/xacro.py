@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -34,6 +35,7 @@ from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
+    from linkforge_compile.importers.package_paths import PackagePaths
     from linkforge_compile.importers.xacro import Expanded, Failed, Place
     from linkforge_compile.source.xml_tree import XmlElement
 
@@ -52,6 +54,8 @@ class Expansion(NamedTuple):
     files: tuple[SourceFile, ...]
     moved: Move | None = None
     arguments: frozenset[str] = frozenset()
+    packages: Mapping[str, Path] = MappingProxyType({})
+    """The folders that `$(find ...)` gave, by package."""
 
 
 def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | None:
@@ -62,24 +66,43 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     (main, *others), imported = robot
     tree, folder = imported.tree, use.path.parent
     included = {file: SpecFile(file, tree, folder, use.package) for file in others}
-    return SpecFile(main, tree, folder, use.package, included, use.packages or {})
+    return SpecFile(main, tree, folder, use.package, included, use.packages)
 
 
 def read_xacro(
-    use: XacroUse, loader: Loader, sink: Diagnostics, *, keeps_refused: bool = False
+    use: XacroUse,
+    loader: Loader,
+    sink: Diagnostics,
+    *,
+    keeps_refused: bool = False,
+    spec_folder: Path | None = None,
 ) -> tuple[tuple[SourceFile, ...], Imported] | None:
     """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error.
 
-    Returns the files in which the robot was written, the named one first, and the robot.
+    Returns the files in which the robot was written, the named one first, and the robot. For a spec in `spec_folder`,
+    paths in packages become expressions; None for no spec.
     """
+    from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS
     from linkforge_compile.importers.urdf import read_urdf
 
     expansion = expand_xacro(use, loader, sink)
     if expansion is None:
         return None
     inside = with_use_trace(sink, (use.used.where,))
-    imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused)
+    paths = _package_paths(expansion, spec_folder, loader) if spec_folder else NO_PACKAGE_PATHS
+    imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused, package_paths=paths)
     return (expansion.files, imported) if imported else None
+
+
+def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> PackagePaths:
+    from linkforge_compile.importers.package_paths import FoundPackage, PackagePaths
+
+    return PackagePaths(
+        {
+            str(folder): FoundPackage(name, find_package(name, {}, spec_folder, loader.roots) == folder)
+            for name, folder in expansion.packages.items()
+        }
+    )
 
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
@@ -107,7 +130,7 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     expanded = SourceFile(f"{main.name} (expanded)", result.text, order=main.order)
     files = (main, *written.files, expanded)
     moved = partial(moved_back, find=written.element)
-    return Expansion(expanded, files, moved, frozenset((*result.arguments, *result.wanted)))
+    return Expansion(expanded, files, moved, frozenset((*result.arguments, *result.wanted)), answers.packages)
 
 
 def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
@@ -150,7 +173,7 @@ class XacroUse:
     used: ImportSite
     arguments: Arguments
     evaluator: Evaluator | None = None
-    packages: Mapping[str, Path] | None = None
+    packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
 
@@ -160,15 +183,18 @@ class XacroAnswers:
 
     def __init__(self, use: XacroUse, loader: Loader) -> None:
         self._use, self._loader = use, loader
+        self.packages: dict[str, Path] = {}
         self.missing_packages: list[str] = []
         self.refused: list[Path] = []
         """Files outside of the roots."""
 
     def find(self, name: str) -> Path | None:
-        declared = {**(self._use.packages or {}), **self._loader.packages}
+        declared = {**self._use.packages, **self._loader.packages}
         folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
         if folder is None:
             self.missing_packages.append(name)
+        else:
+            self.packages[name] = folder
         return folder
 
     def may_read(self, path: Path) -> bool:
@@ -264,7 +290,7 @@ class XacroReporter:
 
     def _unknown_package(self, name: str, place: Span | None) -> Diagnostic:
         where, loader = self.use.used.where, self.loader
-        near = {**(self.use.packages or {}), **loader.packages}
+        near = {**self.use.packages, **loader.packages}
         notes = [Note("it is looked for here", place)] if where and place else []
         start, nearby = self.use.path.parent, loader.nearby_packages
         return unknown_package(where or place, name, start, loader.roots, nearby, near=near, notes=notes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
@@ -219,7 +219,7 @@ class _Evaluation:
             return self._call_file_function(function, arguments[0])
         if function.id in _ANGLE_FUNCTIONS:
             self._warn_of_degrees(function.id, arguments[0])
-        return self._apply(self._counted(FUNCTIONS[function.id]), call, *arguments)
+        return self._apply(self._counted(FUNCTIONS[function.id], walks_maps=True), call, *arguments)
 
     def _warn_of_degrees(self, function: str, argument: ast.expr) -> None:
         """Warn of a literal number that is too large for radians."""
@@ -255,12 +255,12 @@ class _Evaluation:
             left_node, left = right_node, right
         return True
 
-    def _counted(self, operation: Callable[..., Value]) -> Callable[..., Value]:
+    def _counted(self, operation: Callable[..., Value], *, walks_maps: bool = False) -> Callable[..., Value]:
         """Return an operation that charges the budget for the items and characters of its operands."""
 
         def counting(*values: Value) -> Value:
             for value in values:
-                if isinstance(value, tuple):
+                if isinstance(value, tuple) or (walks_maps and isinstance(value, Mapping)):
                     self._scope.budget.spend(Limit.STEPS, len(value), self._expression.place.span)
                 elif isinstance(value, str):
                     self._scope.budget.spend(Limit.CHARACTERS_MADE, len(value), self._expression.place.span)

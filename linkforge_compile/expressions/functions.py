@@ -103,6 +103,16 @@ def _len(value: Value) -> Value:
     raise wrong_kind("a list, a map or text", value, operand=0)
 
 
+def _merge(*maps: Value) -> Value:
+    """Return the entries of all maps; of two with one key, that of the later map."""
+    merged: dict[str, Value] = {}
+    for operand, entries in enumerate(maps):
+        if not isinstance(entries, Mapping):
+            raise wrong_kind("a map", entries, operand)
+        merged |= entries
+    return merged
+
+
 def _to_number(convert: Callable[[Any], Number], pattern: re.Pattern[str], value: Value) -> Value:
     """Convert a number, a quantity in its SI unit, or text that is a number."""
     if not isinstance(value, str):
@@ -151,6 +161,7 @@ FUNCTIONS = _by_name(
     _function("radians(degrees)", _radians),
     _function("degrees(angle)", partial(_of_angle, math.degrees)),
     _function("len(list)", _len),
+    _function("merge(map, other, ...)", _merge, least=2, most=None),
     _function("int(number)", partial(_to_number, int, _WHOLE_NUMBER)),
     _function("float(number)", partial(_to_number, float, _DECIMAL_NUMBER)),
     _function("str(value)", _str),

@@ -265,7 +265,8 @@ COMPARISONS = {
 
 # Items and fields
 
-_AXES = {"x": 0, "y": 1, "z": 2}
+AXES = {"x": 0, "y": 1, "z": 2}
+"""The index of each field of a vector."""
 
 
 def item(whole: Value, index: Value) -> Value:
@@ -296,8 +297,8 @@ def field(whole: Value, key: str) -> Value:
     """Return `map.key`, or `vector.x`, `.y` or `.z`."""
     if isinstance(whole, Mapping):
         return _entry(whole, key)
-    if isinstance(whole, tuple) and len(whole) == 3 and key in _AXES:
-        return whole[_AXES[key]]
+    if isinstance(whole, tuple) and len(whole) == 3 and key in AXES:
+        return whole[AXES[key]]
     raise wrong_kind("a map or a vector's x, y, z", whole, operation=f"'.{key}'")
 
 

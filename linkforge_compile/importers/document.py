@@ -5,14 +5,20 @@ from __future__ import annotations
 import posixpath
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import accumulate
 from textwrap import dedent
 from typing import NamedTuple
 
 from linkforge_compile.banner import BANNER
-from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import NOT_A_ROBOT, NOTHING_EXPANDED, ROBOT_WITHOUT_NAME, STILL_XACRO
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import (
+    LEFT_BY_XACRO,
+    NOT_A_ROBOT,
+    NOTHING_EXPANDED,
+    ROBOT_WITHOUT_NAME,
+    STILL_XACRO,
+)
 from linkforge_compile.importers.spec_draft import SpecDraft
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
@@ -45,10 +51,14 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
     if root.tag != "robot":
         sink.report(NOT_A_ROBOT.at(root.span, tag=root.tag))
         return None
-    if xacro := _first_of_xacro(root):
+    leftovers = _elements_of_xacro(root)
+    is_declared = root.get("xmlns:xacro") is not None or file.path is None
+    if (definition := _definition_in(leftovers)) and is_declared and not moved:
+        # A URDF or SRDF like this is expanded; a text has no folder, and another file no name that says so.
         name = posixpath.basename(file.name).removesuffix(".xml") if file.path else "NAME.urdf"
-        sink.report(STILL_XACRO.at(xacro.span, tag=xacro.tag, name=f"{name}.xacro"))
+        sink.report(STILL_XACRO.at(definition.span, tag=definition.tag, name=f"{name}.xacro"))
         return None
+    _report_leftovers(leftovers, sink)
     if moved and not root.children:
         sink.report(NOTHING_EXPANDED.at(root.span))
         return None
@@ -58,17 +68,34 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
     return document
 
 
-def _first_of_xacro(root: XmlElement) -> XmlElement | None:
-    """Return the first element that xacro would have replaced, at any depth."""
+_DEFINITIONS = frozenset(f"xacro:{tag}" for tag in ("include", "macro", "property", "arg", "if", "unless"))
+
+
+def _elements_of_xacro(root: XmlElement) -> list[XmlElement]:
+    """Return the elements that xacro would have replaced, at any depth, in the order of the file."""
     if "<xacro:" not in root.raw:
-        return None
-    stack = [root]
+        return []
+    found, stack = [], [root]
     while stack:
         element = stack.pop()
         if element.tag.startswith("xacro:"):
-            return element
+            found.append(element)
         stack += reversed(element.children)
-    return None
+    return found
+
+
+def _definition_in(elements: Iterable[XmlElement]) -> XmlElement | None:
+    return next((one for one in elements if one.tag in _DEFINITIONS), None)
+
+
+def _report_leftovers(elements: Iterable[XmlElement], sink: Diagnostics) -> None:
+    """Report what xacro left in a file that it wrote, each tag once."""
+    by_tag: dict[str, list[XmlElement]] = {}
+    for element in elements:
+        by_tag.setdefault(element.tag, []).append(element)
+    for tag, (first, *others) in by_tag.items():
+        more = [Note(f"and {len(others)} more like this, the next one here", others[0].span)] if others else []
+        sink.report(LEFT_BY_XACRO.at(first.span, tag=tag, notes=more))
 
 
 _HEADING = re.compile(

@@ -12,8 +12,9 @@ from dataclasses import replace
 from typing import TypeVar
 
 from linkforge_compile.diagnostics import Note, Severity
-from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, TEXT_LEFT_OUT
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.raw_xml import raw_with_prefix, tidy, without_instructions
+from linkforge_compile.importers.renaming import rename_in_raw
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, values_in
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
@@ -30,6 +31,13 @@ Named = dict[str, tuple[XmlAttribute, YamlNode]]
 
 _FLAGS = {"true": True, "1": True, "false": False, "0": False}
 """The words of XML Schema for true and false."""
+
+_NO_INERTIAL, _NO_SHAPE = "reads no <inertial>", "reads no shape"
+_WITHOUT_A_NUMBER = {
+    **dict.fromkeys(("mass", "inertia"), _NO_INERTIAL),
+    **dict.fromkeys(("sphere", "cylinder", "capsule"), _NO_SHAPE),
+}
+"""What urdfdom does after a number that it cannot read, by the tag of its element."""
 
 _MAX_TEXT = 40
 """Characters shown of a text that is left out."""
@@ -95,6 +103,11 @@ class ElementReader:
             return None
         attribute = self._attributes.pop(name)
         node = self.draft.number(attribute.value, attribute, unit)
+        if self.draft.is_urdf and node is not None and attribute.value[-1:].isspace():
+            effect = _WITHOUT_A_NUMBER.get(self.element.tag, "refuses the robot")
+            self.draft.diagnostics.append(
+                ENDS_IN_A_BLANK.at(attribute.span, name=name, tag=self.element.tag, effect=effect)
+            )
         if node is None:
             raise CannotRepresentError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
         return None if default is not None and float(attribute.value) == default else node
@@ -268,7 +281,8 @@ class ElementReader:
             raise self.cannot_represent("it holds text")
 
     def _raw(self, child: XmlElement) -> YamlNode:
-        written = self.draft.text(tidy(without_instructions(child.raw)), child.span).text
+        raw = rename_in_raw(without_instructions(child.raw), self.draft.renamed)
+        written = self.draft.text(tidy(raw), child.span).text
         text = raw_with_prefix(written, self.element.tag, self.draft.shapes)
         node = YamlScalar(text, text, child.span)
         self.draft.raw.add(child)

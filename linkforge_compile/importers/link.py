@@ -10,7 +10,8 @@ from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Mater
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint, JointLimits, JointType
 from linkforge_compile.core.models.link import COLLISION, KINDS, VISUAL, Collision, Inertial, Visual, shortest_setting
 from linkforge_compile.core.part import Element
-from linkforge_compile.diagnostics.codes.importing import ENDS_KEPT_RAW
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics.codes.importing import ENDS_KEPT_RAW, MATERIAL_REPEATED, NEGATIVE_LIMIT
 from linkforge_compile.importers.element_reader import ElementReader, Named
 from linkforge_compile.importers.elements import Entries, Names, read_element, read_field, read_numbers, require_parts
 from linkforge_compile.importers.plugin_data import Blocks
@@ -172,8 +173,19 @@ def _limits(limit: ElementReader, joint_type: JointType) -> YamlNode:
         reversed_ends = ("lower", "upper")
     if joint_type not in NEED_LIMITS:
         require_parts(limit, JointLimits)
+    zeros = dict(_zeros_for_negative(limit)) if joint_type in NEED_LIMITS else {}
     # If a joint needs limits, incomplete ones are read, and compiling the spec reports what they lack.
-    return limit.map(**read_numbers(limit, JointLimits, joint_type.motion, without=reversed_ends))
+    return limit.map(**read_numbers(limit, JointLimits, joint_type.motion, without=(*reversed_ends, *zeros)), **zeros)
+
+
+def _zeros_for_negative(limit: ElementReader) -> Iterator[tuple[str, YamlNode]]:
+    """Yield 0 for an effort or velocity below 0, which urdfdom reads and Pinocchio refuses; vendors write -1."""
+    for name in ("effort", "velocity"):
+        value = number_of(limit.element.get(name) or "")
+        if value is not None and value < 0:
+            attribute = limit.attribute(name)
+            limit.draft.diagnostics.append(NEGATIVE_LIMIT.at(attribute.span, name=name, value=attribute.value))
+            yield name, limit.draft.word("0", attribute)
 
 
 class Palette:
@@ -188,11 +200,17 @@ class Palette:
         self._definitions: dict[str, YamlMap] = {}
         self._after_links = _declared_after_links(robot)
 
-    def read_declared(self, material: ElementReader) -> YamlNode:
-        """Read a material that the robot declares."""
+    def read_declared(self, material: ElementReader) -> YamlNode | None:
+        """Read a material that the robot declares; None for one that repeats another."""
         name = material.attribute("name")
         if name.value in self.materials:
-            raise CannotRepresentError(f"there is a material '{name.value}' already", name.span)
+            first, _ = self.materials[name.value]
+            is_at_fault = material.element in material.draft.at_fault
+            if is_at_fault or not is_same(_definition(material), self._definitions[name.value]):
+                raise CannotRepresentError(f"there is a material '{name.value}' already", name.span)
+            notes = [Note("the other is here", first.span)]
+            material.draft.diagnostics.append(MATERIAL_REPEATED.at(name.span, name=name.value, notes=notes))
+            return None
         definition = node = _definition(material)
         if material.element in self._after_links:
             true = YamlScalar("true", True, material.span)

@@ -286,6 +286,8 @@ class _Canonicalizer:
         inside = [(f"{path}/{child.tag}", child) for child in self._children(source, path)]
         all_children = [(child_path, self.canonical(child, child_path, element)) for child_path, child in inside]
         children = tuple([child for child_path, child in all_children if not _is_default(child, child_path, element)])
+        if path == "robot":
+            children = tuple(_without_repeated_materials(children))
         values = element.values if source is element else {**source.values, **element.values}
         has_axis = path != _AXIS or parent.get("type") not in HAVE_NO_AXIS
         attributes = self._attributes(path, values, has_axis=has_axis)
@@ -324,6 +326,15 @@ class _Canonicalizer:
             numbers = ((number_of(word), word) for word in words)
             value = self._cache.values[text] = tuple(word if number is None else number for number, word in numbers)
         return value
+
+
+def _without_repeated_materials(children: Iterable[CanonicalElement]) -> Iterator[CanonicalElement]:
+    """Yield the children of a robot, of equal materials only the first."""
+    seen: set[int] = set()
+    for child in children:
+        if child.tag != "material" or child.number not in seen:
+            seen.add(child.number)
+            yield child
 
 
 def _is_default(child: CanonicalElement, path: str, parent: XmlElement) -> bool:

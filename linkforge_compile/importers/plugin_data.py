@@ -50,11 +50,12 @@ def is_free(element: XmlElement) -> bool:
 def has_free_children(element: XmlElement) -> bool:
     """Whether keys represent the children of an element."""
     tags = [tag for tag, _ in groupby(child.tag for child in element.children)]
-    return (
-        len(set(tags)) == len(tags)
-        and not any(tag.startswith("_") for tag in tags)
-        and all(map(is_free, element.children))
-    )
+    return len(set(tags)) == len(tags) and not any(map(_is_no_key, tags)) and all(map(is_free, element.children))
+
+
+def _is_no_key(tag: str) -> bool:
+    """Whether a key of this name would be an attribute, a condition or a repetition."""
+    return tag.startswith("_") or tag in ("for", "when")
 
 
 def _begins_with_text(element: XmlElement) -> bool:
@@ -74,7 +75,7 @@ def take_free_children(owner: ElementReader) -> dict[str, YamlNode | None]:
     groups: defaultdict[str, list[XmlElement]] = defaultdict(list)
     for child in owner.remaining():
         groups[child.tag].append(child)
-    free = {tag: group for tag, group in groups.items() if not tag.startswith("_") and all(map(is_free, group))}
+    free = {tag: group for tag, group in groups.items() if not _is_no_key(tag) and all(map(is_free, group))}
     return {tag: _one_or_list(owner, group, owner.element.tag) for tag, group in free.items()}
 
 

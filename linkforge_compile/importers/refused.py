@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.core.fields import Axis, Child, Number, Spec, Text, Vector, field_specs
+from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint
 from linkforge_compile.core.models.link import Collision, Inertial
 from linkforge_compile.core.part import Element
@@ -67,6 +68,8 @@ def _parts_of(kind: type[Element]) -> Mapping[str, _Part]:
 
 _SHAPE, _JOINT, _INERTIAL = map(_parts_of, (Collision, Joint, Inertial))
 _BODIES = {tag: _part_of(kind) for tag, kind in SHAPES.items()}
+# For a scale that it cannot read, urdfdom drops the shape alone; it is reported as raw XML.
+_BODIES[Mesh.TAG] = _BODIES[Mesh.TAG]._replace(numbers={})
 
 
 def find_refusals(robot: XmlElement) -> Iterator[Refusal]:

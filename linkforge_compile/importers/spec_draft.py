@@ -10,7 +10,8 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import KEPT_RAW
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, PATH_OF_THIS_MACHINE
+from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import Span
@@ -47,6 +48,10 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, PATH_OF_THIS_MACHINE)
+"""Codes of which reports with the same words are one."""
+
+
 class CannotRepresentError(Exception):
     """The language has no form that gives an element back as it is, so it is kept raw; `span` is the reason's place."""
 
@@ -60,7 +65,9 @@ class SpecDraft:
 
     `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
-    error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML.
+    error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
+    urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has;
+    `package_paths` finds the folders of packages in texts.
 
     `keys` has the key or list item of each element, `bodies` the node below it, `raw` the elements that are kept raw,
     `diagnostics` the reports of the import. `size` is the number of values so far, counting keys.
@@ -73,11 +80,17 @@ class SpecDraft:
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,
         at_fault: Collection[XmlElement] = (),
+        is_urdf: bool = False,
+        renamed: Mapping[str, str] = MappingProxyType({}),
+        package_paths: PackagePaths = NO_PACKAGE_PATHS,
     ) -> None:
         self._max_size = Budget(times=_TIMES_DRAFTED).left(Limit.VALUES)
         self.size = 0
         self.refused = refused
         self.at_fault = at_fault
+        self.is_urdf = is_urdf
+        self.renamed = renamed
+        self.package_paths = package_paths
         self.has_quaternions = has_quaternions
         self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}
@@ -89,10 +102,10 @@ class SpecDraft:
         self._numbers: dict[tuple[str, Dimension | None], tuple[str, ScalarValue] | None] = {}
 
     def report(self, sink: Diagnostics) -> None:
-        """Report the diagnostics; those about raw XML with the same reason are one, at the first place."""
+        """Report the diagnostics; those of `_GROUPED` with the same words are one, at the first place."""
         groups: dict[str, list[Diagnostic]] = {}
         for number, one in enumerate(self.diagnostics):
-            key = f"{one.severity} {one.message}" if one.code is KEPT_RAW else str(number)
+            key = f"{one.severity} {one.message}" if one.code in _GROUPED else str(number)
             groups.setdefault(key, []).append(one)
         for first, *others in groups.values():
             more = [Note(f"and {len(others)} more like this, the next one here", others[0].span)] if others else []
@@ -101,14 +114,22 @@ class SpecDraft:
     # Scalars
 
     def text(self, text: str, where: Where) -> YamlScalar:
-        """Return text in which nothing is an expression."""
-        escaped = text.replace("$(", "$$(")
+        """Return text in which nothing is an expression but the folders of packages."""
+        escaped = self._escaped(text, where)
         return YamlScalar(escaped, escaped, *_bounds(where))
 
     def word(self, text: str, where: Where) -> YamlScalar:
         """Return text that a plugin reads, unquoted where YAML reads the same text."""
-        escaped = text.replace("$(", "$$(")
+        escaped = self._escaped(text, where)
         return YamlScalar(escaped, word_value(escaped), *_bounds(where))
+
+    def _escaped(self, text: str, where: Where) -> str:
+        escaped, far = self.package_paths.in_expressions(text.replace("$(", "$$("))
+        if far is not None:
+            place, begin, end = _bounds(where)
+            span = place if isinstance(place, Span) else place.between(begin, end)
+            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=far))
+        return escaped
 
     def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:
         """Return a number as it is written; None for a text that is no finite double.

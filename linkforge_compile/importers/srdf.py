@@ -30,6 +30,7 @@ class SemanticNames:
     joints: set[str]
     turning: frozenset[str]
     """The joints whose position is an angle."""
+    robot: str = ""
     groups: set[str] = field(default_factory=set)
     unread_groups: set[str] = field(default_factory=set)
 
@@ -37,12 +38,19 @@ class SemanticNames:
     def of(cls, tree: YamlMap) -> SemanticNames:
         """Return the names of links and joints in the spec of a URDF."""
         links, joints, frames = (tree.get(key) for key in ("links", "joints", "frames"))
-        names = cls(_keys(links), _keys(joints), frozenset(_turning_joints(joints)))
+        robot = tree.get("name")
+        name = robot.text if isinstance(robot, YamlScalar) else ""
+        names = cls(_keys(links), _keys(joints), frozenset(_turning_joints(joints)), name)
         for frame in frames if isinstance(frames, YamlMap) else ():
             names.links.add(frame.name)
             joint = frame.value.child("joint")
             names.joints.add(joint.text if isinstance(joint, YamlScalar) else f"{frame.name}_joint")
         return names
+
+    @property
+    def all_names(self) -> set[str]:
+        """The names of links, joints and the robot."""
+        return self.links | self.joints | {self.robot}
 
     @property
     def by_kind(self) -> Names:

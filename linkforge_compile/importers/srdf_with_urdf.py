@@ -8,6 +8,7 @@ from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
 from linkforge_compile.importers.document import Comments, Imported, Move, read_document
+from linkforge_compile.importers.renaming import rename_references
 from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.srdf import SemanticNames, read_srdf
 from linkforge_compile.source import SourceFile, Span
@@ -44,6 +45,7 @@ def with_srdf(
     if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
+    document = rename_references(document, SemanticNames.of(urdf.tree).all_names)
     refused: dict[Span, CannotRepresentError] = {}
     entries = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
     elements = 1 + entries + sum(1 for _ in _descendants(document.root))

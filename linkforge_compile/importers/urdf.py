@@ -7,13 +7,15 @@ from collections import Counter
 from collections.abc import Collection
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import SRDF_FOR_URDF
+from linkforge_compile.diagnostics.codes.importing import MATERIAL_REPEATED, SRDF_FOR_URDF
 from linkforge_compile.importers.document import Imported, Move, place_comments, read_document
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
 from linkforge_compile.importers.link import Palette, read_joint, read_link
+from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.raw_xml import Shapes
 from linkforge_compile.importers.refused import find_refusals
+from linkforge_compile.importers.renaming import Renamed, rename_parts
 from linkforge_compile.importers.ros2_control import read_ros2_control, read_transmission
 from linkforge_compile.importers.spec_draft import SpecDraft, values_in
 from linkforge_compile.limits import Budget, Limit
@@ -33,13 +35,19 @@ _FRAME_NAME = re.compile(r"[\w./-]+")
 
 
 def read_urdf(
-    file: SourceFile, sink: Diagnostics, moved: Move | None = None, *, keeps_refused: bool = False
+    file: SourceFile,
+    sink: Diagnostics,
+    moved: Move | None = None,
+    *,
+    keeps_refused: bool = False,
+    package_paths: PackagePaths = NO_PACKAGE_PATHS,
 ) -> Imported | None:
     """Read a URDF document; None where it is none, which is reported.
 
     The tree has all of its content, in the language's words or as raw XML; what is left out is reported. `moved` gives
     elements the places in which they were written. What readers of URDF refuse is reported as an error and at fault in
-    the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec.
+    the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec. `package_paths` are
+    written as expressions.
     """
     document = read_document(file, sink, moved)
     if document is None:
@@ -49,11 +57,16 @@ def read_urdf(
         sink.report(SRDF_FOR_URDF.at(part.span, tag=part.tag))
         return None
     _require_few_parts(root)
-    draft, tree = _draft(root)
-    # What readers refuse has no form in the language, so there is none of it unless something is raw.
-    if draft.raw and not keeps_refused and (refusals := tuple(find_refusals(root))):
+    document, renamed = rename_parts(document, sink)
+    root = document.root
+    draft, tree = _draft(root, renamed, package_paths)
+    # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
+    has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
+    if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
         sink.report_all(refusal.diagnostic for refusal in refusals)
-        draft, tree = _draft(root, frozenset(element for refusal in refusals for element in refusal.path))
+        draft, tree = _draft(
+            root, renamed, package_paths, frozenset(element for refusal in refusals for element in refusal.path)
+        )
     draft.report(sink)
     return Imported(tree, place_comments(document, draft, tree), (document,))
 
@@ -66,8 +79,17 @@ def _require_few_parts(root: XmlElement) -> None:
         raise budget.beyond(Limit.ENTRIES, parts[most].span)
 
 
-def _draft(root: XmlElement, at_fault: Collection[XmlElement] = ()) -> tuple[SpecDraft, YamlMap]:
-    draft = SpecDraft(has_quaternions=_has_quaternions(root), shapes=_shape_names(root), at_fault=at_fault)
+def _draft(
+    root: XmlElement, renamed: Renamed, package_paths: PackagePaths, at_fault: Collection[XmlElement] = ()
+) -> tuple[SpecDraft, YamlMap]:
+    draft = SpecDraft(
+        has_quaternions=_has_quaternions(root),
+        shapes=_shape_names(root),
+        at_fault=at_fault,
+        is_urdf=True,
+        renamed=renamed,
+        package_paths=package_paths,
+    )
     tree = _read_robot(ElementReader(draft, root))
     draft.bodies[root] = tree
     return draft, tree

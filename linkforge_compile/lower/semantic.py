@@ -27,7 +27,7 @@ from linkforge_compile.core.models.srdf import (
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_GROUP,
     PAIR_WITH_ITSELF,
-    STATE_CIRCLE,
+    STATE_CYCLE,
     STATE_VALUE_TWICE,
     UNKNOWN_STATE,
 )
@@ -270,7 +270,7 @@ def _in_order_of_use(by_key: Mapping[StateKey, WrittenState], scope: NamesInScop
             cycle: list[StateKey] = error.args[1][::-1]
             path = " → ".join("/".join(key) for key in cycle)
             first = by_key[cycle[0]].fields
-            first.report(STATE_CIRCLE, first.ref, path=path)
+            first.report(STATE_CYCLE, first.ref, path=path)
             in_cycles.update(cycle)
             uses.update((key, []) for key in cycle)
         else:

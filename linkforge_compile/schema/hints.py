@@ -43,11 +43,11 @@ _KEYS = (
     ("a mesh", "filename uri", "write 'file'"),
     ("a gazebo block", "mu", "write 'mu1', and 'mu2' for the second direction"),
     ("a ros2_control block", "plugin", "write 'hardware_plugin'"),
-    ("a laser scanner's rays", "samples", "write 'horizontal_samples'"),
-    ("a laser scanner's rays", "min_angle", "write 'horizontal_min_angle'"),
-    ("a laser scanner's rays", "max_angle", "write 'horizontal_max_angle'"),
-    ("a laser scanner's rays", "range", "write 'range_min', 'range_max' and 'range_resolution'"),
-    ("a camera's picture", "image", "write 'width', 'height' and 'format'"),
+    ("a lidar's settings", "samples", "write 'horizontal_samples'"),
+    ("a lidar's settings", "min_angle", "write 'horizontal_min_angle'"),
+    ("a lidar's settings", "max_angle", "write 'horizontal_max_angle'"),
+    ("a lidar's settings", "range", "write 'range_min', 'range_max' and 'range_resolution'"),
+    ("a camera's settings", "image", "write 'width', 'height' and 'format'"),
     ("a visual, a collision, a joint, a sensor, a frame, a module, an inertial", "pose transform", _POSE),
 )
 

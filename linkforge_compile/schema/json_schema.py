@@ -58,6 +58,11 @@ def reference(schema: Schema) -> str | None:
 PLAIN = "plain"
 """The `$comment` of a schema whose keys and items are the author's own, even `for`, `when` and `value`."""
 
+FOR_PLUGINS = "plain, for plugins"
+"""The `$comment` of a schema whose keys and items are those of a plugin, but for `when` and `for` where these could be
+no data of a plugin: `when` with true, false or an expression, `for` with a map.
+"""
+
 LONG_FORM = "the long form"
 """The title of the form of an entry or item that is no object: `{for: {i: 3}, value: joint_$(i)}`."""
 
@@ -94,6 +99,10 @@ class _Repetition:
 
     def add_to(self, schema: Schema, *, has_when: bool = True) -> None:
         """Add repetition to a schema, but not to the definitions that it refers to."""
+        entry = schema.get("additionalProperties")
+        if isinstance(entry, dict) and (is_for_plugins(schema) or is_for_plugins(entry)):
+            long_form = _long_form({**entry, **_VALUE})
+            schema["additionalProperties"] = {"$comment": FOR_PLUGINS, "anyOf": [entry, long_form]}
         if is_plain(schema):
             return
         for branch in branches(schema):
@@ -141,7 +150,12 @@ class _Repetition:
 
 def is_plain(schema: Schema) -> bool:
     """Whether the keys and items of a schema are the author's own."""
-    return schema.get("$comment") == PLAIN
+    return schema.get("$comment") in (PLAIN, FOR_PLUGINS)
+
+
+def is_for_plugins(schema: Schema) -> bool:
+    """Whether the keys and items of a schema are those of a plugin, among which `for` and `when` may be."""
+    return schema.get("$comment") == FOR_PLUGINS
 
 
 def has_names(schema: Schema) -> bool:

@@ -70,6 +70,15 @@ class _Place(NamedTuple):
         return not self.is_free and (self.shape.word in _NAME_TITLES or is_prefixed)
 
     @property
+    def is_prose(self) -> bool:
+        return not _PROSE_KEYS.isdisjoint(self.path)
+
+    @property
+    def is_output(self) -> bool:
+        """Whether plugins read the text: a path in it cannot be `package://`, which few of them resolve."""
+        return (self.is_free or self.path[-1] in _PLUGIN_KEYS) and not self.is_prose
+
+    @property
     def words(self) -> str:
         return field(self.path)
 
@@ -135,13 +144,11 @@ class _Checker:
 
     def _is_plain_text(self, text: str, scalar: YamlScalar, place: _Place) -> bool:
         """Whether a text outside of expressions has no xacro syntax that matters there; reports it."""
-        is_prose = not _PROSE_KEYS.isdisjoint(place.path)
-        facts = () if is_prose else xacro_facts(text)
+        facts = () if place.is_prose else xacro_facts(text)
         code = XACRO_IN_FREE_TEXT if place.is_free else XACRO_EXPRESSION
         for each in facts:
             self._sink.report(code.at(scalar.span, text=each["text"], ours=each["ours"]))
-        is_output = place.is_free or place.path[-1] in _PLUGIN_KEYS
-        if is_output and not is_prose and _is_in_curly_quotes(scalar):
+        if place.is_output and _is_in_curly_quotes(scalar):
             self._sink.report(CURLY_QUOTES.at(scalar.span, text=scalar.text, ours=scalar.text[1:-1]))
         return place.is_free or not facts
 
@@ -154,7 +161,7 @@ class _Checker:
             case "link" | "joint" if not place.is_free:
                 self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()"))
                 return False
-            case "path" if not (place.is_computed or place.path[-1:] == ("use",)):
+            case "path" if not (place.is_computed or place.path[-1:] == ("use",) or place.is_output):
                 self._sink.report(PATH_OF_THIS_MACHINE.at(span))
         return True
 

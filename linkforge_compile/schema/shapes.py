@@ -19,6 +19,7 @@ from linkforge_compile.schema.json_schema import (
     Schema,
     branches,
     has_names,
+    is_for_plugins,
     is_list,
     is_plain,
     is_short_form,
@@ -47,6 +48,13 @@ class Shape:
         self._under: dict[str, Shape] = {}
         self.is_plain: Final = not self._union or any(part.get("additionalProperties") is True for part in self._union)
         """Whether all keys are the author's own, even `for` and `when`."""
+        self.is_for_plugins: Final = any(map(is_for_plugins, (schema, *branches(schema))))
+        """Whether `for` and `when` are the author's own keys only with values that they could not have elsewhere."""
+        self.has_elements: Final = self.is_for_plugins and schema.get("additionalProperties") is True
+        """Whether its entries are elements, so that a list repeats a tag."""
+        has_texts = self.is_for_plugins and isinstance(schema.get("additionalProperties"), dict)
+        self.own_words: Final = frozenset[str]() if has_texts else frozenset({"when"})
+        """The words of repetition that the value of a field can have; among texts by name they are names."""
         self.is_free_part: Final = any(_is_free_part(part) for part in (schema, *branches(schema)))
         """Whether it may be data of the author's own, in which the compiler reads no numbers."""
         read_as = {kind for part in self._union if (kind := _read_as(part))}
@@ -128,7 +136,10 @@ class Shape:
             positions = mapping(part.get("patternProperties", {})).get(POSITION)
             if positions is not None and re.match(POSITION, key):
                 return shape_of(linked_part(positions))
-        return FREE
+            others = part.get("additionalProperties")
+            if isinstance(others, dict) and is_for_plugins(others):
+                return shape_of(linked_part(others))
+        return self if self.is_for_plugins else FREE
 
 
 _UNIT = re.compile(r"number \[(\S+)\]")

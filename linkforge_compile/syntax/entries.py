@@ -7,7 +7,16 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
-from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
+from linkforge_compile.syntax.nodes import (
+    YamlEntry,
+    YamlFault,
+    YamlList,
+    YamlMap,
+    YamlNode,
+    YamlScalar,
+    has_expression,
+    is_null,
+)
 
 STUCK = re.compile(r"[A-Za-z_]\w*:\S.*")
 """A key and its value without a space between them."""
@@ -117,7 +126,9 @@ def _merge_sources(value: YamlNode, sink: Diagnostics) -> Iterator[YamlEntry]:
         if isinstance(source, YamlMap):
             yield from source
         elif not isinstance(source, YamlFault):
-            sink.report(codes.MERGE_NOT_MAP.at(source.span, found=kind_of(source)))
+            is_computed = isinstance(source, YamlScalar) and has_expression(source.text)
+            hint = "; write '$(merge(a, b))' in place of this map to merge computed ones" if is_computed else ""
+            sink.report(codes.MERGE_NOT_MAP.at(source.span, found=f"{kind_of(source)}{hint}"))
 
 
 def kind_of(node: YamlNode) -> str:

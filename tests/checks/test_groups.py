@@ -11,7 +11,7 @@ HAND = PlanningGroup("hand", links=("left_hand",))
 def test_groups_that_contain_one_another_are_reported_once():
     groups = (LEFT, PlanningGroup("a", subgroups=("left", "b")), PlanningGroup("b", subgroups=("a",)))
     assert messages_of(two_arms(groups=groups)) == [
-        "LF5601 planning group 'b': planning groups contain each other in a circle: a → b → a"
+        "LF5601 planning group 'b': planning groups contain each other in a cycle: a → b → a"
     ]
 
 
@@ -71,7 +71,7 @@ def test_an_end_effector_that_no_group_carries_is_noted():
 def test_a_chain_moves_what_hangs_between_its_ends_and_the_link_where_its_branches_meet(
     parents: list[int], base: int, tip: int
 ):
-    """A parent that is not above its link stands for a link that hangs on nothing."""
+    """A parent that is not above its link represents an unconnected link."""
     above = {f"l{link}": f"l{parent}" for link, parent in enumerate(parents, start=1) if parent < link}
     names = ["l0", *(f"l{link}" for link in range(1, len(parents) + 1))]
     ends = Chain(names[base % len(names)], names[tip % len(names)])

@@ -28,7 +28,7 @@ def test_a_mimic_of_an_unknown_joint_is_reported():
 
 def test_joints_that_mimic_in_a_circle_are_reported_once():
     subject = robot("base a b", turning("left", "base", "a", mimic="right"), turning("right", "a", "b", mimic="left"))
-    assert messages_of(subject) == ["LF5501 joint 'right': joints mimic each other in a circle: left → right → left"]
+    assert messages_of(subject) == ["LF5501 joint 'right': joints mimic each other in a cycle: left → right → left"]
 
 
 def test_who_mimics_a_joint_of_a_circle_is_not_reported_of_it():
@@ -38,7 +38,7 @@ def test_who_mimics_a_joint_of_a_circle_is_not_reported_of_it():
 
 def test_a_joint_that_mimics_itself_is_a_circle_of_one():
     assert messages_of(robot("base a", turning("left", "base", "a", mimic="left"))) == [
-        "LF5501 joint 'left': joints mimic each other in a circle: left → left"
+        "LF5501 joint 'left': joints mimic each other in a cycle: left → left"
     ]
 
 

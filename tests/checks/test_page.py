@@ -1,4 +1,4 @@
-"""The page that lists what is checked: every code of a check stands on it, in the column of its severity."""
+"""The page that lists what is checked: it has every code of a check in the column of its severity."""
 
 import ast
 import re

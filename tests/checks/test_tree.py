@@ -44,21 +44,21 @@ def test_a_second_parent_is_reported_at_the_second_joint():
 def test_a_joint_back_up_the_tree_is_one_circle_and_no_second_parent(closing_joint_first: bool):
     joints = [fixed("down", "base", "a"), fixed("on", "a", "b"), fixed("back", "b", "a")]
     subject = robot("base a b", *reversed(joints) if closing_joint_first else joints)
-    assert messages_of(subject) == ["LF5403 joint 'back': links are each other's parents in a circle: a → b → a"]
+    assert messages_of(subject) == ["LF5403 joint 'back': links are each other's parents in a cycle: a → b → a"]
 
 
 def test_a_circle_without_a_root_is_reported_once_with_all_its_joints():
     subject = robot("a b c", fixed("ab", "a", "b"), fixed("bc", "b", "c"), fixed("ca", "c", "a"))
     (diagnostic,) = check(subject, UnresolvedNames())
-    assert diagnostic.message == "joint 'ca': links are each other's parents in a circle: a → b → c → a"
+    assert diagnostic.message == "joint 'ca': links are each other's parents in a cycle: a → b → c → a"
     assert [note.message for note in diagnostic.notes] == ["joint 'ab' leads to 'b'", "joint 'bc' leads to 'c'"]
 
 
 def test_two_joints_back_to_one_link_are_two_circles():
     subject = robot("a b", fixed("down", "a", "b"), fixed("up", "b", "a"), fixed("again", "b", "a"))
     assert messages_of(subject) == [
-        "LF5403 joint 'up': links are each other's parents in a circle: a → b → a",
-        "LF5403 joint 'again': links are each other's parents in a circle: a → b → a",
+        "LF5403 joint 'up': links are each other's parents in a cycle: a → b → a",
+        "LF5403 joint 'again': links are each other's parents in a cycle: a → b → a",
     ]
 
 
@@ -71,7 +71,7 @@ def test_two_joints_back_to_one_link_are_two_circles():
     ],
 )
 def test_the_root_is_the_world_or_what_was_written_first(links: str, root: str):
-    """Of two trees the larger one is the arm, whose joint to its base was lost."""
+    """Of two trees the larger one is the arm, whose joint to its base is missing."""
     base = "world" if root == "world" else "mount"
     joints = (fixed("a", base, "bracket"), fixed("b", "arm", "elbow"), fixed("c", "elbow", "hand"))
     (diagnostic,) = check(robot(links, *joints), UnresolvedNames())
@@ -125,7 +125,7 @@ def test_a_chain_of_10000_links_is_checked_without_recursion():
     assert messages_of(chain) == []
     chain.add_joint(fixed("back", "l9999", "l0"))
     assert messages_of(chain) == [
-        "LF5403 joint 'back': links are each other's parents in a circle: l0 → l1 → l2 → l3 → l4 → … → l9999 → l0"
+        "LF5403 joint 'back': links are each other's parents in a cycle: l0 → l1 → l2 → l3 → l4 → … → l9999 → l0"
     ]
 
 

@@ -44,7 +44,7 @@ def test_several_specs_are_checked_in_one_run(tmp_path: Path):
     assert run.stderr.splitlines()[-1] == "checked 2 specs: 3 errors"
 
 
-def test_a_clean_spec_says_so(tmp_path: Path):
+def test_a_clean_spec_is_reported_as_clean(tmp_path: Path):
     (tmp_path / "good.robot.yaml").write_text(PENDULUM)
     run = linkforge("check", "good.robot.yaml", cwd=tmp_path)
     assert (run.returncode, run.stdout, run.stderr) == (0, "", "checked 1 spec: no errors\n")

@@ -39,7 +39,7 @@ FILES = {
 
 @pytest.fixture
 def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The working folder, with a robot that is made from seven files, and one beside them."""
+    """The working folder, with a robot that is made from seven files, and another file."""
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)

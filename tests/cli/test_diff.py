@@ -170,7 +170,7 @@ def test_each_robot_gets_the_parameters_that_it_declares(arms: Path):
     assert "no parameter named 'lnk'; did you mean 'link'?" in run.stderr
 
 
-def test_json_is_as_its_schema_says(arms: Path):
+def test_json_fits_its_schema(arms: Path):
     run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--json", cwd=arms)
     told = json.loads(run.stdout)
     SCHEMA.validate(told)

@@ -1,4 +1,4 @@
-"""`linkforge expand`: one flat spec that compiles to the same robot, and says where each part was written."""
+"""`linkforge expand`: one flat spec that compiles to the same robot, with the source of each part."""
 
 import re
 from pathlib import Path

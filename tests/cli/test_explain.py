@@ -150,7 +150,7 @@ joints:
 
 
 def blocks(folder: Path, path: str) -> list[str]:
-    """Return what is told of a value of BLOCKS, without the source lines."""
+    """Return the explanation of a value of BLOCKS, without the source lines."""
     (folder / "blocks.robot.yaml").write_text(BLOCKS)
     run = linkforge("explain", "blocks.robot.yaml", path, cwd=folder)
     assert (run.returncode, run.stderr) == (0, "")

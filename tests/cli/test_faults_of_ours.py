@@ -28,7 +28,7 @@ def reports(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_a_fault_of_ours_says_what_to_report(
+def test_an_internal_fault_shows_what_to_report(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], reports: Path
 ):
     plant(monkeypatch, ZeroDivisionError("by zero"))

@@ -1,6 +1,7 @@
 """`linkforge import` on the command line."""
 
 import sys
+from hashlib import sha256
 from io import StringIO
 from pathlib import Path
 from threading import Event
@@ -27,7 +28,31 @@ def arm(tmp_path: Path):
 
 def test_a_spec_comes_on_standard_output(arm, capfd: pytest.CaptureFixture[str]):
     assert main(["import", arm()]) == 0
-    assert capfd.readouterr() == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
+    written, told = capfd.readouterr()
+    assert (written.partition("\n\n")[2], told) == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
+
+
+def test_a_spec_begins_with_the_command_and_the_digest_of_its_files(tmp_path: Path):
+    pytest.importorskip("xacro")
+    files = [tmp_path / "urdf" / name for name in ("arm two.urdf.xacro", "links.xacro")]
+    files[0].parent.mkdir()
+    root = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arm">{}</robot>'
+    arguments = '<xacro:arg name="size" default="1"/><xacro:include filename="links.xacro"/>'
+    files[0].write_text(root.format(arguments), "utf-8")
+    files[1].write_text(root.format('<link name="base"/>'), "utf-8")
+    for folder, path in (("specs", "../urdf/arm two.urdf.xacro"), ("urdf", "arm two.urdf.xacro")):
+        output = tmp_path / folder / "arm.robot.yaml"
+        run = linkforge("import", "urdf/arm two.urdf.xacro", "size:=2 m", "-o", str(output), cwd=tmp_path)
+        assert run.returncode == 0, run.stderr
+        command, digest, rest = output.read_text("utf-8").split("\n", 2)
+        assert command == f"# linkforge import '{path}' 'size:=2 m'"
+        whole = sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
+        assert digest == f"# sha256 of its files: {whole}"
+        assert rest.startswith("\nlinkforge: 1\n")
+
+
+RAW = '<material name="empty"/>'
+"""What only raw XML can represent."""
 
 
 def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
@@ -40,7 +65,7 @@ def test_a_spec_is_written_and_compiles(arm, tmp_path: Path, capfd: pytest.Captu
 
 def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
     spec = tmp_path / "arm.robot.yaml"
-    urdf = arm('some text<link name="base"/>')
+    urdf = arm(f"some text{RAW}")
     assert main(["import", urdf, "-o", str(spec)]) == 0
     assert "warning: text is not allowed in <robot>; 'some text' is left out [LF8101]" in capfd.readouterr().err
     spec.unlink()
@@ -48,7 +73,7 @@ def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pyte
     told = capfd.readouterr().err
     assert not spec.exists()
     assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in told
-    assert "warning: <link> is kept as raw XML" in told
+    assert "warning: <material> is kept as raw XML" in told
     assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 
@@ -69,8 +94,18 @@ def test_strict_reports_that_nothing_is_written_if_there_are_errors(arm, capfd: 
 
 
 def test_what_is_kept_raw_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
-    assert main(["import", arm('<link name="base"/>'), "--strict"]) == 0
+    assert main(["import", arm(RAW), "--strict"]) == 0
     assert "LF8021" in capfd.readouterr().err
+
+
+def test_a_spec_that_does_not_compile_fails(arm, tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    spec, red = tmp_path / "arm.robot.yaml", '<material name="red"><color rgba="{} 0 0 1"/></material>'
+    urdf = arm(red.format(1) + red.format(0.5))
+    assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
+    assert capfd.readouterr().err.endswith("\nnothing written: there are errors\n")
+    assert main(["import", urdf, "-o", str(spec)]) == 1
+    assert "[LF7160]" in capfd.readouterr().err
+    assert compile_file(spec).has_errors
 
 
 def test_a_spec_that_lacks_what_is_raw_is_written_and_fails(arm, capfd: pytest.CaptureFixture[str]):
@@ -118,7 +153,7 @@ def test_a_spec_that_was_changed_is_replaced_by_force_only(arm, tmp_path: Path, 
     assert f"'{spec}' exists with other content; use --force to replace it" in capfd.readouterr().err
     assert spec.read_text() == "# mine\n"
     assert main(["import", arm(), "-o", str(tmp_path), "--force"]) == 0
-    assert spec.read_text().startswith("linkforge: 1")
+    assert "\nlinkforge: 1\n" in spec.read_text()
 
 
 def test_a_mesh_next_to_the_urdf_but_not_to_the_spec_is_reported(arm, tmp_path: Path):
@@ -179,7 +214,7 @@ def test_a_spec_is_named_after_an_xml_file_without_its_ending(tmp_path: Path):
 
 def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
     run = linkforge("import", arm(), "-o", "-", cwd=tmp_path)
-    assert (run.returncode, run.stdout.split("\n")[1], run.stderr) == (0, "name: arm", "")
+    assert (run.returncode, run.stdout.split("\n")[4], run.stderr) == (0, "name: arm", "")
     assert [file.name for file in tmp_path.iterdir()] == ["arm.urdf"]
 
 

@@ -1,4 +1,4 @@
-"""`linkforge init`, run as a program: what it writes works, and nothing of the user's is lost."""
+"""`linkforge init`, run as a program: its output works, and no file of the user is changed."""
 
 import json
 import re
@@ -47,7 +47,7 @@ def test_a_new_robot_is_one_to_begin_with(tmp_path: Path):
     assert {path.name for path in (spec.parent / "build").iterdir()} == {"my-arm.urdf", "my-arm.srdf"}
 
 
-def test_it_says_what_it_wrote_and_what_comes_next(tmp_path: Path):
+def test_it_prints_what_it_wrote_and_the_next_steps(tmp_path: Path):
     told = linkforge("init", "my-arm", cwd=tmp_path).stderr.splitlines()
     written = {line.removeprefix("wrote my-arm/") for line in told if line.startswith("wrote ")}
     assert written == FILES

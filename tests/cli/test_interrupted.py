@@ -1,4 +1,4 @@
-"""Output that is interrupted: the old file or the new one, whole, and nothing beside it."""
+"""Output that is interrupted: the old file or the new one, complete, and no other file."""
 
 import os
 import shutil

@@ -86,7 +86,7 @@ def test_a_faulty_declaration_is_reported_with_the_others(arm: Path):
     assert "hardware   string  mock" in run.stdout
 
 
-def test_a_spec_without_parameters_says_so(tmp_path: Path):
+def test_a_spec_without_parameters_is_reported_as_such(tmp_path: Path):
     (tmp_path / "box.robot.yaml").write_text("linkforge: 1\nname: box\nlinks: {base: }\n")
     run = linkforge("params", "box.robot.yaml", cwd=tmp_path)
     assert run.stdout == "box\n\nIt has no parameters.\n"

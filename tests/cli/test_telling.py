@@ -137,7 +137,7 @@ def test_colors_are_written_on_request(specs: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="POSIX's pseudo-terminals")
-def test_on_a_terminal_text_is_coloured_and_says_where_there_is_more(specs: Path):
+def test_on_a_terminal_text_is_colored_and_refers_to_explain(specs: Path):
     ours, theirs = os.openpty()
     command = (sys.executable, "-m", "linkforge_compile", "compile", "faulty.robot.yaml")
     plain = {name: value for name, value in os.environ.items() if name not in {"NO_COLOR", "FORCE_COLOR"}}

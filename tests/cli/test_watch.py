@@ -45,7 +45,7 @@ def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def watch(cell: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Callable[..., list[str]]:
     def run(*deeds: Deed, words: tuple[str, ...] = ()) -> list[str]:
-        """Watch while things are done, the next one whenever all is still; return the lines that are told."""
+        """Watch while the steps run, each one when the last is done; return the printed lines."""
         left: Iterator[Deed] = iter(deeds)
 
         def pause(seconds: float) -> None:

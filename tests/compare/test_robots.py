@@ -1,4 +1,4 @@
-"""Each kind of difference, as it is told."""
+"""Each kind of difference and its text."""
 
 # ruff: noqa: E501 a robot and a change take a line each
 
@@ -373,7 +373,7 @@ def test_a_shape_colored_by_another_visual_in_mujoco_is_reported(before: str, af
 def test_a_material_written_after_the_links_is_reported():
     after = SPEC.replace("red: {color: [1, 0, 0, 1]}", "red: {color: [1, 0, 0, 1], after_links: true}")
     (told,) = compare(robot_of(SPEC), robot_of(after))
-    assert (told.path, told.text) == (("materials", "red", "after_links"), "before the links → behind the links")
+    assert (told.path, told.text) == (("materials", "red", "after_links"), "before the links → after the links")
 
 
 def test_float_noise_below_the_tolerance_is_not_reported():

@@ -1,4 +1,4 @@
-"""Exporting is a method of the robot: checked first, unless one says not to."""
+"""Exporting is a method of the robot: checked first, unless disabled."""
 
 import re
 

@@ -55,7 +55,7 @@ def test_an_implied_number_is_written_where_the_author_wrote_it():
 
 @dataclass
 class Spring:
-    """A class of somebody else with a number of its own."""
+    """A user's class with a number of its own."""
 
     stiffness: Annotated[float | None, Number(bound=NOT_NEGATIVE)]
 

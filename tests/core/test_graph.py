@@ -1,4 +1,4 @@
-"""What the graph of links and joints says, and that no chain is too long for it."""
+"""The graph of links and joints, also for long chains."""
 
 from itertools import pairwise
 

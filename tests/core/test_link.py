@@ -170,7 +170,7 @@ class Tool(Link):
 
 
 class Locked(Link):
-    """A link that nobody may change any more."""
+    """A frozen link."""
 
     def __init__(self, name):
         super().__init__(name)

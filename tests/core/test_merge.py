@@ -345,7 +345,7 @@ def test_a_link_of_a_user_class_makes_its_own_copy():
 
 
 def told(method):
-    """Wrap `with_prefix` as somebody does who wants to know of each call."""
+    """Wrap `with_prefix` to record each call."""
 
     @wraps(method)
     def with_prefix(part, prefix):

@@ -349,7 +349,7 @@ def test_a_missing_package_is_named(monkeypatch, form, package):
 # COLLADA
 
 
-def test_a_collada_file_says_its_unit():
+def test_the_unit_of_a_collada_file_is_applied():
     part = solid_in(collada(f"<node>{GEOMETRY}</node>", asset='<unit name="millimeter" meter="0.001"/>'), "part.dae")
     assert part.volume == pytest.approx(8e-9)
 

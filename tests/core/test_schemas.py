@@ -128,7 +128,7 @@ HOW_IT_WAS_WRITTEN = {
 
 
 def entries_of(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of an object in a schema, alone or beside a short form."""
+    """Return the entries of an object in a schema, alone or together with a short form."""
     forms = (schema, *schema.get("anyOf", ()))
     return next((form["properties"] for form in forms if "properties" in form), {})
 
@@ -146,7 +146,7 @@ def entries_at(place: str) -> dict[str, Any]:
 
 
 def description_of(entry: Mapping[str, Any], place: str) -> str:
-    """Return what a schema says of a key, there or in the definition of its values."""
+    """Return the schema of a key, written there or in the definition of its values."""
     if "description" in entry or "$ref" not in entry:
         return entry.get("description", "")
     file, _, definition = entry["$ref"].partition("#/definitions/")

@@ -1,4 +1,4 @@
-"""Sensors and what each type says about itself."""
+"""Sensors and the properties of their types."""
 
 import math
 

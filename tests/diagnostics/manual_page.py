@@ -1,4 +1,4 @@
-"""A page of the manual, taken apart: docs/diagnostics/README.md says how one is written."""
+"""Parse a page of the manual; docs/diagnostics/README.md describes the form."""
 
 import re
 import shlex

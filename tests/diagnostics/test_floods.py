@@ -1,4 +1,4 @@
-"""Many faults: what is told, what is counted, and where nobody looks any further."""
+"""Many faults: which are reported, which are counted, and where the compile ends."""
 
 import pytest
 

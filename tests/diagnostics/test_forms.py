@@ -35,7 +35,7 @@ EVERY = (
 )
 
 
-def test_json_says_all_and_fits_its_schema():
+def test_json_is_complete_and_fits_its_schema():
     whole = json.loads(render_json(EVERY))
     schema = json.loads((ROOT / "docs" / "diagnostics.schema.json").read_text("utf-8"))
     jsonschema.Draft7Validator.check_schema(schema)
@@ -201,7 +201,7 @@ RUN = closed(
     results={"type": "array", "items": RESULT},
 )
 SARIF = closed(("version", "runs"), version={"const": "2.1.0"}, runs=some(RUN), **{"$schema": {"type": "string"}})
-"""What SARIF 2.1.0 says of the objects and keys that are written here, each with its kind; no others."""
+"""The objects and keys of SARIF 2.1.0 that are written here, each with its type; no others."""
 
 
 def test_sarif_is_as_the_standard_has_it():

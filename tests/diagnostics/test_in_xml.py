@@ -1,4 +1,4 @@
-"""Who checks a URDF, or uses one, is told what is wrong in the words of that file."""
+"""Mistakes in a URDF that is checked or used are reported in terms of URDF."""
 
 from linkforge_compile import compile_file
 from linkforge_compile.diagnostics.codes import REGISTER
@@ -11,6 +11,7 @@ TOLD_ELSEWHERE = {
     "LF3005": "tests/expand/test_xacro_modules.py",
     "LF3301": "tests/importers/test_urdf.py",
     "LF5005": "tests/cases/bad_urdf",
+    "LF6114": "tests/cases/refused_urdf",
     "LF7085": "tests/cli/test_compile.py",
 }
 

@@ -1,4 +1,4 @@
-"""The manual holds: its wrong examples are told as it says, its right ones compile."""
+"""The examples of the manual: wrong ones are reported with the code of the page, right ones compile."""
 
 from pathlib import Path
 
@@ -47,5 +47,5 @@ def test_a_wrong_example_is_reported_and_the_right_one_is_not(
 
 
 def test_every_code_has_a_page_and_every_page_a_code():
-    """Write docs/diagnostics/CODE.md, as docs/diagnostics/README.md says."""
+    """Write docs/diagnostics/CODE.md, as docs/diagnostics/README.md describes."""
     assert {path.stem for path in PAGES} == set(REGISTER)

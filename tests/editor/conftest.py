@@ -56,7 +56,7 @@ def cannot(reason: str) -> NoReturn:
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the documents lie, beside `robot.schema.json`."""
+    """The folder of the documents and of `robot.schema.json`."""
     folder = tmp_path_factory.mktemp("robots")
     (folder / "robot.schema.json").write_text(bundle_text(), "utf-8")
     return folder

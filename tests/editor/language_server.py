@@ -16,7 +16,7 @@ CARET = "|"
 """Marks the place of a request in a document."""
 
 SPEC = "arm.robot.yaml"
-"""What a document is called unless said."""
+"""The default name of a document."""
 
 _PATIENCE = 60.0
 """[s]; far more than the server takes, so that a loaded machine fails no test."""
@@ -33,7 +33,7 @@ _CAPABILITIES = {
 
 
 class Completion(NamedTuple):
-    """What the server offers: the word, what is told of it, and what is written where it is taken."""
+    """A completion: the word, its description, and the inserted text."""
 
     label: str
     told: str
@@ -48,7 +48,7 @@ class Fault(NamedTuple):
 
 
 class LanguageServer:
-    """One server process, and the folder in which its documents lie, beside the schema that their modeline names."""
+    """One server process, and the folder of its documents and of the schema that their modeline names."""
 
     def __init__(self, command: list[str], folder: Path, settings: Mapping[str, object] | None = None) -> None:
         """`settings` are further ones of "yaml"."""

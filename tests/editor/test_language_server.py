@@ -12,7 +12,7 @@ MODELINE = "# yaml-language-server: $schema=robot.schema.json\n"
 HEAD = f"{MODELINE}linkforge: 1\nname: arm\n"
 
 EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
-"""Keys that stand in most objects; one place says that they are offered too."""
+"""Keys of most objects; one test checks that they are offered."""
 
 GEOMETRY = ["box", "capsule", "cylinder", "mesh", "sphere"]
 JOINT_TYPES = ["continuous", "fixed", "floating", "planar", "prismatic", "revolute"]

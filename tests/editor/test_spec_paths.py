@@ -17,7 +17,7 @@ FOLDERS = ["", "robots", "robots/parts", "robots/parts/deep/er", "vendors/v3/rob
 
 
 def found(offer: Json, made: Mapping[str, Json], key: str) -> Iterator[Json]:
-    """Yield what stands behind a key, wherever an offer leads."""
+    """Yield the values of a key in all completions."""
     schema = mapping(offer)
     if "$ref" in schema:
         yield from found(made.get(str(schema["$ref"]).removeprefix("#/definitions/"), {}), made, key)

@@ -340,7 +340,7 @@ def test_a_spec_that_links_lead_to_is_one(tmp_path: Path):
 
 
 def test_a_link_out_of_the_folders_that_may_be_read_is_no_spec(tmp_path: Path):
-    """Be there a file or not, which is nobody's business who made the link."""
+    """Whether the file exists or not, which the author of the link must not learn."""
     far = written(tmp_path / "far", {"d.robot.yaml": ARM})
     root = written(tmp_path / "repo", {"a.robot.yaml": ARM})
     links = (root / "d.robot.yaml", root / "gone.robot.yaml", root / "zero.robot.yaml")

@@ -18,7 +18,7 @@ class Assembled(NamedTuple):
 
     @property
     def metadata(self) -> object:
-        """What the compiled file says under `metadata`, where tests put what they look at."""
+        """The `metadata` of the compiled file, where tests put the values to check."""
         return metadata_of(self.instance)
 
 

@@ -11,7 +11,7 @@ from tests.expand.assembling import plain
 
 
 def write(folder, files):
-    """Write files as they are but for the first line, which says `linkforge`."""
+    """Write files with a first line `linkforge: 1`."""
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(f"linkforge: 1\n{text}")
@@ -69,7 +69,7 @@ def test_paths_are_relative_to_the_file_that_wrote_them(tmp_path):
     assert 'filename="skins/a.png"' in urdf
 
 
-def test_a_fault_in_an_included_file_says_where_it_was_included(tmp_path):
+def test_a_fault_in_an_included_file_has_a_note_of_the_include(tmp_path):
     write(
         tmp_path,
         {

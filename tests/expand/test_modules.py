@@ -82,7 +82,7 @@ def test_an_instance_has_its_name_prefix_entry_and_include_stack(tmp_path, sink)
     assert hand.entry.trail == left.include_stack
 
 
-def test_a_fault_of_a_module_says_who_used_it(tmp_path, sink):
+def test_a_fault_of_a_module_has_a_note_of_its_use(tmp_path, sink):
     write(
         tmp_path,
         {
@@ -195,7 +195,7 @@ def test_the_circle_is_reported_with_each_of_its_lines(tmp_path, sink):
     compiled(tmp_path, sink)
     (told,) = sink
     path = "robot.robot.yaml → parts/a.robot.yaml → parts/b.robot.yaml → robot.robot.yaml"
-    assert told.message == f"modules use each other in a circle: {path}"
+    assert told.message == f"modules use each other in a cycle: {path}"
     assert told.span.text == "../robot.robot.yaml"
     assert [note.span.text for note in told.notes[:2]] == ["parts/a.robot.yaml", "b.robot.yaml"]
 

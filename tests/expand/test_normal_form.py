@@ -1,9 +1,9 @@
-"""Short forms made long: each means what its long form says."""
+"""Short forms made long: each is equal to its long form."""
 
 import pytest
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.merge_objects import SHORT_FORMS, long_form, long_object, with_frames_as_joints
+from linkforge_compile.expand.defaults import SHORT_FORMS, long_form, long_object, with_frames_as_joints
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile

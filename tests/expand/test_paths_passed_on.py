@@ -177,3 +177,18 @@ def test_a_missing_file_is_reported_with_the_start_of_its_path(tmp_path, monkeyp
     assert fault.code.id == "LF3001"
     message = fault.notes[0].message
     assert message == f"looked for it at {said}"
+
+
+def test_a_default_outside_the_package_of_its_module_is_reported(tmp_path):
+    (tmp_path / "shared").mkdir()
+    (tmp_path / "shared" / "shape.yaml").write_text(
+        "linkforge: 1\nparameters: {shape: {type: file, default: cube.obj}}\n"
+    )
+    write(tmp_path, {"hands/hand.robot.yaml": "include: [../shared/shape.yaml]\nmetadata: {shape: $(shape)}"})
+    found = assemble(
+        "packages: {hands: hands}\nmodules: {hand: {use: package://hands/hand.robot.yaml}}", folder=tmp_path
+    )
+    assert found.told == [
+        "'cube.obj' lies outside the module's package, so its absolute path ties the output to this machine; "
+        "write 'package://NAME/PATH'"
+    ]

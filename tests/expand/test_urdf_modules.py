@@ -276,7 +276,7 @@ def test_raw_names_that_stay_are_not_reported(tmp_path):
 
 
 def test_its_packages_are_those_of_the_file_that_uses_it(tmp_path):
-    """A URDF cannot say where a package is: the inertia of its mesh is found by what the spec says."""
+    """A URDF has no `packages`: those of the spec give the mesh for its inertia."""
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "palm.stl").write_text("solid broken", "utf-8")
     gripper = GRIPPER.replace(BOX, '<mesh filename="package://parts/palm.stl"/>')
@@ -331,7 +331,7 @@ def test_a_vendor_s_robot_moves_as_it_does_alone(name: str, tmp_path: Path):
 
 
 def test_a_vendor_s_gripper_on_a_vendor_s_arm(tmp_path: Path):
-    """Both from URDF and SRDF, each without the world it stands on; every consumer reads what comes out."""
+    """Both from URDF and SRDF, each without its own world link; every consumer reads the output."""
     arm, gripper = CORPUS / "ur_ur5e", CORPUS / "robotiq_2f_85"
     if not CORPUS.exists():
         pytest.skip("the corpus is not at hand")

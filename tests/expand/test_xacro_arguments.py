@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile import compile_file, import_urdf, render_srdf
+from linkforge_compile import compile_file, import_urdf, render_srdf, render_urdf
 from linkforge_compile.pipeline import parameters_of
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -164,3 +164,51 @@ def test_an_argument_that_is_used_and_declared_nowhere_can_be_given(tmp_path: Pa
     assert import_urdf(file, arguments=["link:=b"]).diagnostics == ()
     [told] = import_urdf(file).diagnostics
     assert told.code.id == "LF3021"
+
+
+@pytest.mark.parametrize("name", ["arm.urdf", "arm.xacro.urdf"])
+def test_a_urdf_that_is_a_xacro_is_expanded(tmp_path: Path, name: str):
+    pytest.importorskip("xacro")
+    size = '<xacro:property name="size" value="2"/>' if name == "arm.urdf" else ""
+    radius = "${size}" if size else "$(optenv NO_SUCH_VARIABLE 2)"
+    shape = f'<link name="a"><visual><geometry><sphere radius="{radius}"/></geometry></visual></link>'
+    (tmp_path / name).write_text(f'{HEAD} name="r">{size}{shape}</robot>', "utf-8")
+    spec = tmp_path / "cell.robot.yaml"
+    spec.write_text(f"linkforge: 1\nname: cell\nmodules: {{arm: {{use: {name}}}}}\n", "utf-8")
+    assert "sphere: 2" in (import_urdf(tmp_path / name).text or "")
+    for file in (tmp_path / name, spec):
+        assert compile_file(file).result().links[0].visuals[0].geometry.radius == 2
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    pytest.importorskip("xacro")
+    (tmp_path / "pkg").mkdir()
+    (tmp_path / "pkg/package.xml").write_text('<package format="3"><name>pkg</name></package>', "utf-8")
+    (tmp_path / "pkg/r.urdf.xacro").write_text(
+        f"""{HEAD} name="r"><link name="a"><visual><geometry>
+        <mesh filename="file://$(find pkg)/a.stl"/></geometry></visual></link>
+        <gazebo><plugin name="p" filename="p.so"><file>$(find pkg)/c.yaml</file></plugin></gazebo>
+        <raw file="$(find pkg)/d.yaml"/></robot>""",
+        "utf-8",
+    )
+    return tmp_path / "pkg"
+
+
+def test_a_path_that_find_made_is_an_expression(package: Path):
+    read = import_urdf(package / "r.urdf.xacro", output=package)
+    assert read.text is not None
+    assert str(package) not in read.text
+    for file in ("a.stl", "c.yaml", "d.yaml"):
+        assert f"$(path('package://pkg/{file}'))" in read.text
+    (package / "r.robot.yaml").write_text(read.text, "utf-8")
+    urdf = render_urdf(compile_file(package / "r.robot.yaml").result())
+    assert urdf.count(f"{package}/") == 3
+    assert f'"file://{package}/a.stl"' in urdf
+
+
+def test_a_path_of_a_package_that_the_spec_cannot_find_is_reported(package: Path, tmp_path: Path):
+    read = import_urdf(package / "r.urdf.xacro", output=tmp_path / "far")
+    assert read.text is not None
+    assert f"file: {package}/c.yaml" in read.text
+    assert [(one.code.id, one.span.line) for one in read.diagnostics if one.span] == [("LF8025", 3)]

@@ -60,7 +60,7 @@ SEGMENT = """\
 
 @pytest.fixture
 def vendor(tmp_path: Path) -> Path:
-    """Return the folder of a package of a vendor, with nothing that says where it is."""
+    """Return the folder of a vendor's package that is not declared anywhere."""
     package = tmp_path / "vendor"
     for folder in ("urdf", "config"):
         (package / folder).mkdir(parents=True)
@@ -78,7 +78,7 @@ def cell(folder: Path, modules: str, packages: str = "{arm_parts: vendor}") -> C
 
 
 def place(compilation: Compilation) -> tuple[str, int, str]:
-    """Return where the one diagnostic stands, and what it says."""
+    """Return the place and message of the only diagnostic."""
     [diagnostic] = compilation.diagnostics
     return Path(diagnostic.span.file.name).name, diagnostic.span.line, diagnostic.message
 

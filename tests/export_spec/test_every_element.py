@@ -1,4 +1,4 @@
-"""Every element that is written can have an attribute and an element that nobody foresaw, in the IR and in a spec."""
+"""Every element that is written can have an unknown attribute and element, in the model and in a spec."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
@@ -20,7 +20,7 @@ from tests.export_spec.test_laws import compiled
 from tests.formats.everything import everything
 
 SAID_BY_A_GAZEBO_BLOCK = {"gazebo"}
-"""What has no part of its own: the block around a sensor, and that of a link's physics; another block says more."""
+"""Elements without a part of their own: the block around a sensor, and that of a link's physics."""
 
 FREE = {"plugin"}
 """Elements whose children are free parts, which say attributes and children by themselves."""
@@ -63,7 +63,7 @@ def _is_in_free_part(element: etree._Element) -> bool:
 
 
 def _inside(element: etree._Element) -> tuple[str | None, Inside]:
-    """Return the part that an element is inside of, and what says more of it."""
+    """Return the part that contains an element, and what extends it."""
     inside = Inside(element.tag, _name(element), **_more("inner", "1"))
     for ancestor in element.iterancestors():
         if owner := ancestor.get("own"):
@@ -73,7 +73,7 @@ def _inside(element: etree._Element) -> tuple[str | None, Inside]:
 
 
 def _name(element: etree._Element) -> str | None:
-    """Return what tells an element from others of its tag beside it, None for the only one."""
+    """Return what distinguishes an element from its siblings of the same tag, None for the only one."""
     parent = element.getparent()
     if parent is None or len(parent.findall(element.tag)) < 2:
         return None
@@ -85,7 +85,7 @@ def _more(attribute: str, value: str) -> dict[str, object]:
 
 
 def stamped(robot: Robot, insides: Insides) -> Robot:
-    """Return the robot with a number in each of its parts, and with what is said of elements inside of them."""
+    """Return the robot with a number in each of its parts, and with additions to the elements inside of them."""
     numbers = map(str, count())
     stamp = _Stamp(numbers, insides)
     parts = {field.name: stamp(getattr(robot, field.name)) for field in fields(robot) if field.name in _SECTIONS}
@@ -129,7 +129,7 @@ class _Stamp:
 
 
 def _joined(insides: Iterable[Inside]) -> list[Inside]:
-    """Return what is said of one element as one."""
+    """Return the additions to one element as one."""
     joined: dict[tuple[str, str | None], Inside] = {}
     for one in insides:
         known = joined.setdefault((one.tag, one.name), one)

@@ -1,4 +1,4 @@
-"""Every field of every class of the IR comes back from a spec, if it says anything but its default."""
+"""Every field of every class of the model comes back from a spec, unless it has its default."""
 
 import json
 from collections.abc import Iterator, Mapping

@@ -21,7 +21,7 @@ from tests.formats.everything import everything
 
 
 def compiled(text: str) -> Robot:
-    """Read, validate, expand and lower a spec that has no fault; whether the robot makes sense is not asked."""
+    """Read, validate, expand and lower a spec that has no fault; without checks of the robot."""
     sink = Diagnostics()
     loader = Loader()
     spec = loader.parse(text, "written.robot.yaml", None, sink)

@@ -21,7 +21,7 @@ STEEL = Material("steel", Color(0.6, 0.6, 0.65))
 
 
 def spec(**parts: object) -> str:
-    """Return the lines of a spec behind its name."""
+    """Return the lines of a spec after its name."""
     return write_spec(Robot("r", **parts)).removeprefix("linkforge: 1\nname: r\n").lstrip("\n")
 
 

@@ -1,4 +1,4 @@
-"""What a spec says comes out, also where it is what the IR has by itself; a walk over all its defaults."""
+"""Values of a spec are written even if they are the defaults of the model; for all defaults."""
 
 from collections.abc import Iterator
 from copy import deepcopy
@@ -45,7 +45,7 @@ ROBOT = yaml.safe_load("""
 
 
 class Place(NamedTuple):
-    """Where a spec says a field, below ROBOT, and where the URDF has it."""
+    """The path of a field in a spec, below ROBOT, and in the URDF."""
 
     spec: str
     urdf: str
@@ -164,7 +164,7 @@ def default_of(field: Field[object]) -> object:
 
 
 def as_written(value: object) -> object:
-    """Return a value of the IR as YAML says it."""
+    """Return a value of the model as YAML."""
     match value:
         case Transform(xyz=xyz):
             return as_written(xyz)

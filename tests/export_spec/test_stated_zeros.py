@@ -1,4 +1,4 @@
-"""A 0 that is said where none need be comes out, and stays in the spec that is written back."""
+"""A 0 that is set without need is written, and stays in the spec that is written back."""
 
 import pytest
 

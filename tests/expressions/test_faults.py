@@ -1,4 +1,4 @@
-"""What expressions refuse, where they say so, and that nothing a stranger writes is run, hangs or escapes."""
+"""What expressions refuse and where it is reported; untrusted expressions run no code and end in time."""
 
 import pytest
 from hypothesis import given
@@ -100,6 +100,7 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
         ("$(row['mas'])", "'mas'", "no key 'mas' in this map; did you mean 'mass'?"),
         ("$(sizes[4])", "4", "no item 4 in a list of 4; the first is 0"),
         ("$(sizes[1.0])", "1.0", "a list takes a whole number in its brackets, found a number"),
+        ("$(merge(row, sizes))", "sizes", "merge() takes a map, found a list"),
         ("$(side.x)", "side.x", "'.x' takes a map or a vector's x, y, z, found the text 'left'"),
         ("$(count.__class__)", "count.__class__", "'.__class__' takes a map or a vector's x, y, z, found a number"),
         ("arm_$(sizes)", "sizes", "a list cannot be inserted into text"),

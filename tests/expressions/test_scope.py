@@ -1,4 +1,4 @@
-"""Names in scope: computed when asked for, in any order, and never in a circle."""
+"""Names in scope: computed on demand, in any order, and never in a cycle."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What expressions give: Python's numbers, quantities that keep their dimension, text where they stand in text."""
+"""Values of expressions: Python's numbers, quantities that keep their dimension, text inside of text."""
 
 import math
 
@@ -63,6 +63,8 @@ NAMES: dict[str, Value] = {
         ("$(floor(-0.5) + ceil(0.5))", 0),
         ("$(abs(-2) + sqrt(16))", 6.0),
         ("$(len(sizes) + len(row) + len(side))", 12),
+        ("$(merge(row, row.limits))", {**NAMES["row"], "x": 9}),
+        ("$(merge(row.limits, row, row.limits).x)", 9),
         ("$(int('12') + int(2.9))", 14),
         ("$(float('1e-3'))", 0.001),
         ("$(str(4.0) + str(on))", "4true"),

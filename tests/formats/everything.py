@@ -1,4 +1,4 @@
-"""A robot that says everything a robot can, and that real readers accept."""
+"""A robot with every feature that real readers accept."""
 
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import (

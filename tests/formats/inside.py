@@ -1,4 +1,4 @@
-"""What stands in a document, so that a test can show the few lines that it is about."""
+"""Parts of a document, so that a test can show only the relevant lines."""
 
 from textwrap import dedent
 

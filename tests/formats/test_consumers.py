@@ -1,4 +1,4 @@
-"""Real readers take what we write, and find in it what the robot says of itself."""
+"""Real readers accept the output, and find the values of the robot in it."""
 
 import pytest
 

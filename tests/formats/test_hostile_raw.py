@@ -38,7 +38,7 @@ DECLARED = {"linkforge": "urn:test"}
 
 
 def infoset(element: etree._Element) -> object:
-    """Return what an element says, without white space that is alone between tags."""
+    """Return the content of an element, without white space that is alone between tags."""
     children = [infoset(child) for child in element]
     texts = [element.text, *(child.tail for child in element)]
     is_text = any((text or "").strip(" \t\r\n") for text in texts)

@@ -15,7 +15,7 @@ from tests.formats.inside import urdf, xml
 Y = Vector3(0, 1, 0)
 
 
-def test_a_fixed_joint_says_no_more_than_it_must():
+def test_a_fixed_joint_writes_only_required_parts():
     assert urdf(joints=[Joint("mount", JointType.FIXED, "base", "arm")]) == xml("""
         <joint name="mount" type="fixed">
           <parent link="base"/>

@@ -1,4 +1,4 @@
-"""What a format or its readers cannot take is told beforehand."""
+"""What a format or its readers do not support is reported."""
 
 from contextlib import suppress
 from dataclasses import fields, replace

@@ -65,7 +65,7 @@ def test_every_line_of_an_element_is_mapped(robot: Robot):
 
 
 def names_written_at(span: Span) -> re.Pattern[str]:
-    """Return what the names look like that the key at a place can give: behind a prefix, its expressions anything."""
+    """Return a pattern of the names that the key at a place can give, with any prefix and any values in it."""
     pattern = "".join(".*" if part.startswith("$(") else re.escape(part) for part in KEY_PARTS.findall(span.text or ""))
     line = span.file.line(span.line)
     named = "|".join(f".*{re.escape(name)}" for name in re.findall(r"\bjoint: (\w[^\s,}]*)", line))

@@ -103,7 +103,7 @@ def test_what_a_view_does_not_have_is_no_empty_text():
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Yield a folder that stands for that of our own templates."""
+    """Yield a folder that replaces that of our own templates."""
     monkeypatch.setattr(environment, "templates_folder", lambda: tmp_path)
     (tmp_path / "urdf").mkdir()
     environment.own_environment.cache_clear()

@@ -1,4 +1,4 @@
-"""A user's templates: what they are given, what they may do, and what is told of them."""
+"""A user's templates: their data, what they may do, and their diagnostics."""
 
 import os
 import pickle
@@ -37,7 +37,7 @@ def rendered(text: str, folder: Path, name: str = "a.md") -> str:
 
 
 def fault(text: str, folder: Path, name: str = "a.md") -> Diagnostic:
-    """Return the only thing that is told of a template."""
+    """Return the only diagnostic of a template."""
     with pytest.raises(TemplateError) as refused:
         rendered(text, folder, name)
     (diagnostic,) = refused.value.diagnostics

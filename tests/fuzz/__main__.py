@@ -1,4 +1,4 @@
-"""Fuzzes one target for as long as is said: `python -m tests.fuzz compile --seconds 600`.
+"""Fuzz one target for a given time: `python -m tests.fuzz compile --seconds 600`.
 
 `yaml` reads a spec's text, `expression` computes one, `import` reads a URDF with an SRDF, `compile` does the whole.
 What breaks a promise is written to the current folder as `crash-…`, `timeout-…` or `oom-…`: mend it, and keep the file

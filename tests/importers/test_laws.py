@@ -19,7 +19,7 @@ from tests.export_spec.test_laws import compiled, few, robots
 
 
 def said_by_urdf(robot: Robot) -> Robot:
-    """Return a robot without what an import says in another place: the materials of visuals."""
+    """Return a robot without what an import writes in another place: the materials of visuals."""
     robot = robot.clone()
     robot.links = [
         replace(link, visuals=[replace(visual, material=None) for visual in link.visuals]) for link in robot.links
@@ -47,7 +47,7 @@ def is_writable(robot: Robot) -> bool:
 
 
 def elements(document: str) -> object:
-    """Return what a document says: its elements in any order, for what is kept raw comes behind what is not."""
+    """Return the content of a document, with its elements in any order, because raw ones are written last."""
     return _sorted(ElementTree.fromstring(document))
 
 
@@ -109,7 +109,7 @@ SHAPES = st.lists(
 def test_an_import_tells_exactly_where_mujoco_shows_another_color(
     shapes: list[tuple[str, str, bool]], own: str, own_comes_first: bool
 ):
-    """What holds text in its geometry stays raw, and comes behind what does not."""
+    """An element with text in its geometry stays raw, and is written last."""
     link = "".join(
         f'<{kind}><geometry><sphere radius="{size}"/>{"text" if raw else ""}</geometry>'
         f"{look if kind == 'visual' else ''}</{kind}>"

@@ -1,4 +1,4 @@
-"""Nothing of a robot is lost in silence: an import compares what its spec compiles to with what came in."""
+"""No loss is silent: an import compares what its spec compiles to with the file."""
 
 import random
 import runpy
@@ -12,7 +12,7 @@ import pytest
 from lxml import etree
 
 import linkforge_compile.importing
-from linkforge_compile import Severity, compile_text, import_urdf, render_urdf
+from linkforge_compile import compile_text, import_urdf, render_urdf
 from linkforge_compile.cli.main import main
 from linkforge_compile.diagnostics import Diagnostics, sink
 from linkforge_compile.formats import URDF
@@ -122,7 +122,7 @@ def test_a_color_changed_by_raw_xml_is_reported():
 
 
 def test_a_zero_rpy_with_a_quaternion_is_a_loss():
-    """urdfdom refuses an origin that says both."""
+    """urdfdom refuses an origin that has both."""
     origin = '<origin xyz="0 0 0.5"/>'
     turned = ROBOT.replace(origin, '<origin xyz="0 0 0.5" quat_xyzw="0 0 0 1"/>')
     doubled = ROBOT.replace(origin, '<origin xyz="0 0 0.5" rpy="0 0 0" quat_xyzw="0 0 0 1"/>')
@@ -309,10 +309,6 @@ def test_a_mutated_urdf_comes_out_the_same_or_is_reported(seed: int, shared: Pat
         if read.text is None or read.has_errors or read.losses:
             continue
         compilation = compile_text(read.text)
-        if compilation.has_errors:
-            # A copy of a link or joint comes in raw, and is told once the spec is compiled.
-            assert {one.code.id for one in compilation.diagnostics if one.severity is Severity.ERROR} == {"LF7160"}
-            continue
         judged += 1
         ours = etree.fromstring(render_urdf(compilation.result()).encode())
         # What stands in the material of a visual comes out in that of the robot, which the judge does not look into.

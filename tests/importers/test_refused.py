@@ -1,9 +1,10 @@
-"""What readers of URDF refuse is an error where a URDF is compiled: urdfdom itself says which that is."""
+"""What readers of URDF refuse is an error when a URDF is compiled; urdfdom itself decides what that is."""
 
 import pytest
 
-from linkforge_compile import check_text, compile_text
-from tests.consumers import check_urdf
+from linkforge_compile import check_text, compile_text, render_urdf
+from linkforge_compile.diagnostics import Severity
+from tests.consumers import check_urdf, pinocchio_model
 
 _LIMIT = '<limit lower="0" upper="1" effort="1" velocity="1"/>'
 _INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
@@ -73,3 +74,12 @@ def test_limits_that_vendors_leave_open_are_raw():
     limited = _joint('<axis xyz="0 0 1"/><limit effort="inf" velocity="1"/>', "continuous")
     compilation = compile_text(f'<robot name="r">{limited}</robot>')
     assert [one.code.id for one in compilation.diagnostics] == ["LF8021"]
+
+
+def test_a_scale_that_readers_cannot_read_is_a_warning():
+    """It costs urdfdom the shape, and not the robot, as it is for raw XML."""
+    mesh = '<mesh filename="a.stl" scale="1 1 1 1"/>'
+    text = f'<robot name="r"><link name="a"><visual><geometry>{mesh}</geometry></visual></link></robot>'
+    compilation = check_text(text)
+    assert [one.code.id for one in compilation.diagnostics if one.severity is Severity.WARNING] == ["LF8021"]
+    assert pinocchio_model(render_urdf(compilation.result())).nbodies == 1

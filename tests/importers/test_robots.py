@@ -39,7 +39,7 @@ ROBOTS = [
 
 
 def imported(robot: Documents) -> tuple[str, tuple[Diagnostic, ...]]:
-    """Return the spec of a robot, and what of it is lost."""
+    """Return the spec of a robot, and the losses."""
     whole = import_urdf(robot.urdf, srdf=robot.srdf)
     assert whole.text is not None, whole.diagnostics
     assert not whole.has_errors, whole.diagnostics
@@ -101,7 +101,7 @@ def test_a_robot_is_the_same_to_every_consumer_and_stays_so(robot: Documents, ju
 
 
 def told(spec: str) -> object:
-    """Return what a spec says, but for comments, spelling of numbers, layout of raw XML and the order of keys."""
+    """Return the content of a spec, without comments, spelling of numbers, layout of raw XML and the order of keys."""
     return _told(read(SourceFile("spec", spec), Diagnostics(), Budget()))
 
 

@@ -13,11 +13,12 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read as read_yaml
+from tests.consumers import check_urdf
 
 
 @pytest.fixture
 def read(tmp_path: Path):
-    """Import a URDF that is written in a test, whose robot is named `r`; nothing may be told of it."""
+    """Import a URDF that is written in a test, whose robot is named `r`, without diagnostics."""
 
     def read_urdf(text: str) -> str:
         imported = imported_from(text, tmp_path)
@@ -47,7 +48,7 @@ ENDS = '<parent link="a"/><child link="b"/>'
 
 
 def joint(read, text: str, kind: str = "revolute") -> str:
-    """Return what a joint between two links says, without its type and its ends."""
+    """Return the contents of a joint between two links, without its type and its ends."""
     lines = read(f'{BOTH}<joint name="j" type="{kind}">{ENDS}{text}</joint>').partition("joints:\n")[2]
     body = dedent(lines.partition("\n")[2]) if lines.startswith("  j:\n") else lines.strip().removeprefix("j: ")
     return body.replace(f"type: {kind}, parent: a, child: b", "").replace(f"type: {kind}\nparent: a\nchild: b\n", "")
@@ -718,3 +719,24 @@ def test_the_entries_of_its_srdf_count_for_a_spec(tmp_path: Path, monkeypatch: p
     imported = import_urdf("r.urdf", text=f"<robot name='r'>{arm}</robot>", srdf=tmp_path / "r.srdf")
     assert imported.text is None
     assert [one.code.id for one in imported.diagnostics] == ["LF3301"]
+
+
+def test_names_with_spaces_are_replaced_wherever_they_are_used(tmp_path: Path):
+    urdf, srdf = tmp_path / "r.urdf", tmp_path / "r.srdf"
+    urdf.write_text(
+        """<robot name="my arm"><link name="base link"/><link name="base_link"/>
+        <joint name="j 1" type="fixed"><parent link="base link"/><child link="base_link"/></joint>
+        <gazebo reference="base link"><plugin name="p" filename="p.so"><body>base link</body></plugin></gazebo>
+        <camera on="base link"/></robot>""",
+        "utf-8",
+    )
+    srdf.write_text('<robot name="my arm"><passive_joint name="j 1"/></robot>', "utf-8")
+    read = import_urdf(urdf, srdf=srdf)
+    assert [one.code.id for one in read.diagnostics] == ["LF8105"]
+    robot = compile_text(read.text or "").result()
+    assert (robot.name, [link.name for link in robot.links]) == ("my_arm", ["base-link", "base_link"])
+    assert (robot.joints[0].name, robot.joints[0].parent) == ("j_1", "base-link")
+    assert robot.gazebo_elements[0].plugins[0].parameters["body"] == "base-link"
+    assert robot.extra_elements == ('<camera on="base-link"/>',)
+    assert robot.semantic.passive_joints[0].name == "j_1"
+    check_urdf(render_urdf(robot))

@@ -1,4 +1,4 @@
-"""What an alias or `<<` brings in is told at its anchor, with the place that it does not fit."""
+"""A fault in what an alias or `<<` inserts is reported at its anchor, with the place of use."""
 
 import pytest
 

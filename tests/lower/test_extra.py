@@ -1,4 +1,4 @@
-"""`extra`, `extra_attributes` and `extra_inside`: kept as they stand, one text or several."""
+"""`extra`, `extra_attributes` and `extra_inside`: kept unchanged, one text or several."""
 
 from linkforge_compile.core.models.srdf import PlanningGroup
 from linkforge_compile.core.part import Inside

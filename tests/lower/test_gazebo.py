@@ -1,4 +1,4 @@
-"""Gazebo: blocks beside what they are about, with tags that are keys, other elements, and plugins."""
+"""Gazebo: blocks of links, joints and the robot, with tags that are keys, other elements, and plugins."""
 
 from linkforge_compile import compile_text
 from linkforge_compile.core import LinkPhysics, Robot

@@ -1,4 +1,4 @@
-"""Inertia of meshes from specs: found as the spec says, read once, weighed with the other shapes, or told why not."""
+"""Inertia of meshes from specs: found by the spec's packages, read once, added to other shapes, or reported."""
 
 import os
 import sys
@@ -159,7 +159,7 @@ def test_the_meshes_of_a_compile_are_bounded_together_each_file_once(tmp_path, m
     assert fault.span.text == "two.stl"
 
 
-def test_a_fault_of_a_mesh_says_what_it_is_needed_for_and_who_uses_the_file(tmp_path):
+def test_a_fault_of_a_mesh_has_notes_of_its_purpose_and_use(tmp_path):
     save(turned_inside_out(CUBE), tmp_path / "cube.stl")
     spec(tmp_path, link("{mesh: {file: cube.stl}}"), "leg.robot.yaml")
     whole = spec(tmp_path, "links: {trunk: }\nmodules: {leg: {use: leg.robot.yaml, parent: trunk}}\n")

@@ -1,4 +1,4 @@
-"""`mount`: the joint that a file brings along to hang by."""
+"""`mount`: the joint that attaches a file to the file that uses it."""
 
 from pathlib import Path
 

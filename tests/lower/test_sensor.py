@@ -53,7 +53,7 @@ def test_a_lidar_of_the_simulator_may_do_without_its_rays(kind: str):
     assert sensor(f"type: {kind}, link: base, lidar: {{}}").lidar_info == LidarInfo()
 
 
-def test_an_info_that_says_nothing_is_one():
+def test_an_empty_info_is_accepted():
     assert sensor("type: imu, link: base, imu: {}").imu_info == IMUInfo()
 
 

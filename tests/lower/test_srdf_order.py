@@ -1,4 +1,4 @@
-"""What a spec nests under a name stands side by side in the robot, whichever of its files says it."""
+"""Entries that a spec nests under a name are adjacent in the robot, from whichever file they come."""
 
 from tests.lower.specs import Spec, robot_of
 

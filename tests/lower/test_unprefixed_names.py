@@ -1,4 +1,4 @@
-"""What no prefix reaches is told where a file is used under one, and nowhere else."""
+"""Names that get no prefix are reported if a file is used with one, and only then."""
 
 import time
 

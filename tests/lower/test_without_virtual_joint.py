@@ -1,4 +1,4 @@
-"""A module that says how it stands in the world by itself, and hangs on a link."""
+"""A module with a virtual joint of its own that is attached to a link."""
 
 from linkforge_compile.core import EndEffector, JointProperty, PassiveJoint, PlanningGroup, VirtualJoint
 from linkforge_compile.core.models.srdf import GroupState, SemanticRobotDescription

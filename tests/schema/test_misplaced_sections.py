@@ -1,4 +1,4 @@
-"""Sections whose line may be lost: what is none of them stays where it stands."""
+"""Sections whose line may be missing: other entries stay where they are."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Repetition and patches in the schema that editors get: in every object, though no schema file says so."""
+"""Repetition and patches in the schema that editors get: in every object, although no schema file contains them."""
 
 import pytest
 from jsonschema import Draft7Validator

@@ -1,4 +1,4 @@
-"""What is said of a tree that is not shaped as the language, where, and what goes on to the next stage."""
+"""Diagnostics of a tree that does not fit the schema, their places, and what the next stage gets."""
 
 from textwrap import dedent
 
@@ -25,7 +25,7 @@ def judged(text: str) -> tuple[YamlMap, list[str]]:
 
 
 def sentences(text: str) -> list[str]:
-    """Return what is said of a body that follows a faultless header, without the places."""
+    """Return the messages about a body that follows a correct header, without the places."""
     return [fault.split(" ", 1)[1] for fault in judged(HEADER + dedent(text))[1]]
 
 

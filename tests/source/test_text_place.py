@@ -1,4 +1,4 @@
-"""Where the lines of a text behind `|` stand."""
+"""Places of the lines of a block scalar."""
 
 import pytest
 

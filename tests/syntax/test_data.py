@@ -21,7 +21,7 @@ def test_the_top_may_be_of_any_shape(text, kind):
     assert (type(node), reported) == (kind, [])
 
 
-def test_a_known_tag_makes_what_the_caller_says():
+def test_a_known_tag_makes_the_value_of_the_caller():
     node, reported = read("a: !twice 3\nb: [!twice '4']\n")
     assert reported == []
     assert (node.get("a").value, node.get("b").items[0].value) == (6, 8)

@@ -1,4 +1,4 @@
-"""Nodes of the tree: each is itself, whatever another one says."""
+"""Nodes of the tree are compared by identity."""
 
 import pytest
 

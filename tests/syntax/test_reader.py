@@ -1,4 +1,4 @@
-"""Reading: every key and value where it was written, what is no YAML of ours reported in plain words, nothing lost."""
+"""Reading: every key and value has its place, and invalid YAML is reported in plain words."""
 
 import json
 from collections.abc import Iterator

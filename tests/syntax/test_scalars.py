@@ -1,4 +1,4 @@
-"""Plain scalars mean what YAML 1.2's core schema says, which is not what PyYAML's loaders say."""
+"""Plain scalars follow YAML 1.2's core schema, unlike PyYAML's loaders."""
 
 import math
 

@@ -19,6 +19,10 @@ NOT_A_ROBOT = Code("LF8011", _E, "expected <robot>, found <{tag}>")
 ROBOT_WITHOUT_NAME = Code("LF8012", _E, "the robot has no name; write <robot name='...'>")
 STILL_XACRO = Code("LF8013", _E, "<{tag}> is xacro syntax, which is expanded only in a file named '{name}'")
 
+LEFT_BY_XACRO = Code(
+    "LF8023", _W, "<{tag}> is left over from a xacro, and kept as raw XML; write what it stands for, or delete it"
+)
+
 # What no reader of URDF takes
 NO_NUMBERS = Code("LF8060", _E, "'{name}' of <{tag}> takes {expected}, found '{text}'{way_out}")
 LACKS_PART = Code("LF8065", _E, "this <{tag}> has no {what}, so readers of URDF refuse it")
@@ -31,6 +35,18 @@ NOTHING_EXPANDED = Code(
 
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
+
+MATERIAL_REPEATED = Code(
+    "LF8022", _W, "material '{name}' is declared again with the same content; the spec has it once"
+)
+
+PATH_OF_THIS_MACHINE = Code(
+    "LF8025",
+    _W,
+    "$(find {package}) becomes a path of this machine, as that package is not found from the spec's folder",
+)
+
+ENDS_IN_A_BLANK = Code("LF8024", _W, "'{name}' of <{tag}> ends in a blank, so urdfdom {effect}; delete the blank")
 
 ENDS_KEPT_RAW = Code(
     "LF8090", _W, "lower must not be above upper, found {lower} and {upper}; they are kept as raw attributes"
@@ -89,6 +105,15 @@ OTHER_ROBOT = Code(
     _W,
     "this SRDF names the robot '{name}', the URDF '{robot}', and a spec has one name; it becomes '{robot}'",
 )
+NEGATIVE_LIMIT = Code(
+    "LF8104", _W, "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have"
+)
+NAME_REPLACED = Code(
+    "LF8105",
+    _W,
+    "'{name}' has characters that names in TF, topics and specs cannot have, and becomes '{new}'; rename it in the "
+    "programs that use it",
+)
 DOES_NOT_COME_OUT = Code("LF8190", _W, "the spec does not reproduce {what}")
 BECOMES_OTHER = Code("LF8191", _W, "{what} is '{was}' here, but the spec compiles to '{now}'")
 SHAPES_REORDERED = Code(
@@ -110,6 +135,8 @@ LOSSES = frozenset(
         TEXT_LEFT_OUT,
         INSTRUCTION_LEFT_OUT,
         OTHER_ROBOT,
+        NEGATIVE_LIMIT,
+        NAME_REPLACED,
         DOES_NOT_COME_OUT,
         BECOMES_OTHER,
         COMES_IN_ADDITION,

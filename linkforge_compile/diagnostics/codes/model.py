@@ -76,7 +76,7 @@ VIRTUAL_JOINT_LEFT_OUT = Code(
 EMPTY_GROUP = Code("LF5303", _E, "planning group '{group}' has no chain, links, joints or subgroups")
 PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '{link}' twice")
 UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it has {states}")
-STATE_CIRCLE = Code("LF5306", _E, "group states take their values from each other in a circle: {path}")
+STATE_CYCLE = Code("LF5306", _E, "group states take their values from each other in a cycle: {path}")
 STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
 
 MOUNT_SAYS_ENDS = Code(
@@ -95,7 +95,7 @@ MOUNT_AND_JOINT = Code(
 # LF54xx: the tree of links
 NO_LINKS = Code("LF5401", _E, "robot '{robot}' has no links; a robot has at least one")
 SECOND_PARENT = Code("LF5402", _E, "link '{link}' is the child of two joints, '{first}' and '{joint}'; {way_out}")
-LINK_CIRCLE = Code("LF5403", _E, "links are each other's parents in a circle: {path}")
+LINK_CYCLE = Code("LF5403", _E, "links are each other's parents in a cycle: {path}")
 SEVERAL_ROOTS = Code(
     "LF5404",
     _E,
@@ -103,7 +103,7 @@ SEVERAL_ROOTS = Code(
 )
 
 # LF55xx: how far joints go, and joints that follow others
-MIMIC_CIRCLE = Code("LF5501", _E, "joints mimic each other in a circle: {path}")
+MIMIC_CYCLE = Code("LF5501", _E, "joints mimic each other in a cycle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
 NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0")
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
@@ -127,7 +127,7 @@ MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with 
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
 
 # LF56xx: groups, states and end effectors
-GROUP_CIRCLE = Code("LF5601", _E, "planning groups contain each other in a circle: {path}")
+GROUP_CYCLE = Code("LF5601", _E, "planning groups contain each other in a cycle: {path}")
 CHAIN_UPWARD = Code(
     "LF5602", _E, "no chain leads from '{base}' down to '{tip}', because '{base}' is below '{tip}'; swap them"
 )

@@ -29,7 +29,7 @@ MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}
 NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
 SRDF_BESIDE_SPEC = Code("LF3017", _E, "'srdf' is for a URDF or a xacro; '{path}' has 'semantic' instead")
-USE_CIRCLE = Code("LF3012", _E, "modules use each other in a circle: {path}")
+USE_CYCLE = Code("LF3012", _E, "modules use each other in a cycle: {path}")
 USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
 
 # LF302x: parameters and what sets them
@@ -72,7 +72,7 @@ ENTRY_IN_TWO_FILES = Code("LF3061", _E, "{entry} is in two files that 'include' 
 SET_BY_MAIN_FILE = Code(
     "LF3062", _E, "an included file must not set '{key}'; set it in the file that includes this one"
 )
-INCLUDE_CIRCLE = Code("LF3063", _E, "files include each other in a circle: {path}")
+INCLUDE_CYCLE = Code("LF3063", _E, "files include each other in a cycle: {path}")
 INCLUDED_TWICE = Code("LF3064", _E, "'{path}' is included already")
 INCLUDE_TOO_DEEP = Code("LF3065", _E, "files are included inside files more than {limit} deep")
 TOO_MANY_INCLUDES = Code("LF3066", _E, "more than {limit} files are included")
@@ -90,7 +90,9 @@ VARIANTS_DISAGREE = Code(
 # LF309x: what depends on how the file is used
 PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; leave $(prefix) out")
 NAME_OUTSIDE_TEXT = Code("LF3091", _E, "{function} is allowed only in free parts and 'extra'; elsewhere write the name")
-PATH_OF_THIS_MACHINE = Code("LF3092", _W, "path() ties the output to this machine; pass it in by 'with' instead")
+PATH_OF_THIS_MACHINE = Code(
+    "LF3092", _W, "path() ties the output to this machine; write 'package://NAME/PATH', or pass it in by 'with'"
+)
 FILE_OUTSIDE_PACKAGE = Code(
     "LF3093",
     _W,

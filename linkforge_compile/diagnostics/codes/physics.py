@@ -127,6 +127,13 @@ RANGE_OUTSIDE_LIMITS = Code(
 )
 STARTS_OUTSIDE_LIMITS = Code("LF6111", _W, "joint '{joint}' goes {range}, but starts at {found}")
 NO_INTERFACE = Code("LF6112", _N, "{owner} has no interface, so no controller can use it")
+UNRESOLVED_PACKAGE = Code(
+    "LF6114",
+    _W,
+    "plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write '$(path('{path}'))'",
+    in_xml="plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write the path of "
+    "the file, in a xacro '$(find {package})'",
+)
 RANGE_FAR_BEYOND = Code(
     "LF6185",
     _W,

@@ -29,10 +29,10 @@ _KEYS_NOT_FOR: Mapping[str, tuple[str, ...]] = {
 def compute_defaults(file: YamlMap, evaluator: Evaluator) -> YamlMap | None:
     """Return the computed `defaults` of a file that has some; None after a reported error."""
     section, shape = file.entries["defaults"].value, shapes().under("defaults")
-    keys = [*_keys_of_for(section, shape)]
-    for key in keys:
-        evaluator.sink.report(REPEATED_DEFAULT.at(key.span))
-    computed = expand_part(_without_for(section, shape) if keys else section, evaluator, shape, "defaults")
+    keys: list[YamlScalar] = []
+    section = _without_for(section, shape, keys)
+    evaluator.sink.report_all(REPEATED_DEFAULT.at(key.span) for key in keys)
+    computed = expand_part(section, evaluator, shape, "defaults")
     if computed is None or isinstance(computed, YamlMap):
         return computed
     if not (isinstance(computed, YamlFault) or is_null(computed)):
@@ -153,27 +153,17 @@ def _with_faults(faults: Mapping[str, YamlFault], entry: YamlEntry) -> YamlEntry
     return YamlEntry(entry.key, YamlMap({**entry.value.entries, **added}, entry.value.span), entry.replaced)
 
 
-def _keys_of_for(node: YamlNode, shape: Shape) -> Iterator[YamlScalar]:
-    match node:
-        case YamlList():
-            for item in node:
-                yield from _keys_of_for(item, shape.item) if shape.item else ()
-        case YamlMap():
-            for entry in node:
-                if entry.name == "for" and shape.is_object:
-                    yield entry.key
-                else:
-                    yield from _keys_of_for(entry.value, shape.under(entry.name))
-
-
-def _without_for(node: YamlNode, shape: Shape) -> YamlNode:
+def _without_for(node: YamlNode, shape: Shape, found: list[YamlScalar]) -> YamlNode:
+    """Return a node without the `for` of objects, whose keys are added to `found`."""
     match node:
         case YamlList() if shape.item:
             item = shape.item
-            return YamlList(tuple(_without_for(one, item) for one in node), node.span)
+            return YamlList(tuple(_without_for(one, item, found) for one in node), node.span)
         case YamlMap():
-            kept = node.without("for") if shape.is_object else node
-            return kept.mapped(lambda one: _without_for(one.value, shape.under(one.name)))
+            if shape.is_object and "for" in node.entries:
+                found.append(node.entries["for"].key)
+                node = node.without("for")
+            return node.mapped(lambda one: _without_for(one.value, shape.under(one.name), found))
     return node
 
 

@@ -1,0 +1,43 @@
+"""The head of an imported spec: the command that writes it again, and a digest of the files that it was read from."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Iterable
+from hashlib import sha256
+from pathlib import Path
+from typing import NamedTuple
+
+from linkforge_compile.source.characters import on_one_line
+
+
+class Origin(NamedTuple):
+    """What a spec was imported from; `digest` is the SHA-256 of the contents of all files read, one after another."""
+
+    urdf: Path
+    srdf: Path | None
+    assignments: tuple[str, ...]
+    """The arguments of xacros, as `NAME:=VALUE`."""
+    digest: str
+
+    def head(self, folder: Path) -> str:
+        """Return the comment for a spec in a folder, in which the command is to be run."""
+        srdf = ("--srdf", _from(folder, self.srdf)) if self.srdf else ()
+        command = ("linkforge", "import", _from(folder, self.urdf), *srdf, *self.assignments)
+        return f"# {on_one_line(shlex.join(command))}\n# sha256 of its files: {self.digest}\n\n"
+
+
+def digest_of(contents: Iterable[bytes]) -> str:
+    """Return the SHA-256 of contents, one after another: for one file, what `sha256sum` prints."""
+    digest = sha256()
+    for content in contents:
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def _from(folder: Path, file: Path) -> str:
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:  # another drive of Windows
+        return file.absolute().as_posix()
