@@ -11,6 +11,7 @@ from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.expand.uses import charge_entries
@@ -146,9 +147,10 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     except BeyondLimitError as beyond:
         sink.abort(beyond)
         text = None
+    report = group_alike(sink.sorted())
     if text is None or urdf.text is not None or not urdf.path.is_file():
-        return Import(text, sink.sorted())
-    return Import(text, sink.sorted(), _origin(urdf.path, srdf, arguments, loader))
+        return Import(text, report)
+    return Import(text, report, _origin(urdf.path, srdf, arguments, loader))
 
 
 def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, loader: Loader) -> Origin:

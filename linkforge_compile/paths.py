@@ -118,11 +118,30 @@ def find_package(name: str, declared: Mapping[str, Path], start: Path | None, ro
     `declared` are the folders that the user or the spec names. After them come the folders upward from `start` whose
     package.xml has the name, AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
     """
+    source = _in_source_tree(name, start, roots)
+    return next(_package_folders(name, declared, source, _in_environment(name, roots)), None)
+
+
+def folders_for_xacro(name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots) -> Iterator[Path]:
+    """Yield the folders that `$(find NAME)` of a xacro may stand for, the best first.
+
+    As for xacro, the sourced environment comes before the source tree, where files that CMake installs elsewhere have
+    another path.
+    """
+    source = _in_source_tree(name, start, roots)
+    yield from _package_folders(name, declared, _in_environment(name, roots), source)
+
+
+def _package_folders(name: str, declared: Mapping[str, Path], *searched: Iterator[Path]) -> Iterator[Path]:
     if name in declared:
-        return declared[name]
-    if not _NAME.fullmatch(name):
-        return None
-    return next(chain(_in_source_tree(name, start, roots), _in_ament(name), _in_ros_1(name, roots)), None)
+        yield declared[name]
+    elif _NAME.fullmatch(name):
+        yield from chain(*searched)
+
+
+def _in_environment(name: str, roots: Roots) -> Iterator[Path]:
+    yield from _in_ament(name)
+    yield from _in_ros_1(name, roots)
 
 
 def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Path]:

@@ -15,6 +15,7 @@ from linkforge_compile.compilation import Compilation, CompileError
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
+from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import (
     Arguments,
@@ -278,7 +279,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         from linkforge_compile.diagnostics.reports import apply_suppressions
 
         report = apply_suppressions(report, suppressions, is_whole=robot is not None)
-    return Compilation(robot, report, (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
+    return Compilation(robot, group_alike(report), (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

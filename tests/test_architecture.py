@@ -45,7 +45,7 @@ MAY_IMPORT = {
         "gc_paused"
     ),
     "launch": "diagnostics formats core expand pipeline file_watcher",
-    "editor": "diagnostics syntax schema expand lower core roots resources formats fresh_stack",
+    "editor": "diagnostics units syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (
         "banner source diagnostics limits roots core checks schema expand pipeline importing formats export_spec "
         "compare editor resources file_watcher _version"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.names import SHOWN, Reference, join_names
+from linkforge_compile.checks.names import Reference
 from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
@@ -21,6 +21,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     MERGED_LINK_NAMED,
     TINY_MASS,
 )
+from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.units import number_text
 
 if TYPE_CHECKING:

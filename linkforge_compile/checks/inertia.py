@@ -17,6 +17,7 @@ from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.physics import (
     DENSE_LINK,
     FAR_CENTRE,
+    FLATTER_THAN_A_PLATE,
     IMPOSSIBLE_INERTIA,
     INDEFINITE_INERTIA,
     LARGE_INERTIA,
@@ -31,6 +32,9 @@ from linkforge_compile.units import UNITS, Dimension, units_of
 ROUNDING = 1e-6
 """The tolerance on moments, relative to the largest: tensors are often written with six digits."""
 
+NEARLY_FLAT = 0.01
+"""A largest moment that exceeds the sum of the others by up to this part of it is that of a thin body, measured."""
+
 ROUNDED_AWAY = 1e-12
 """A moment below this part of the largest one is a rounding error of 0."""
 
@@ -42,7 +46,7 @@ def check_inertia(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The principal moments of inertia of a link with mass are above 0, and none exceeds the sum of the other two.
 
     The moments [kg·m²] of any rigid body are so; the largest equals that sum for a flat plate. Physics engines refuse
-    other tensors, change them or blow up.
+    other tensors, change them or blow up; up to one percent above the sum, as of a thin body, only MuJoCo does.
     Leave `inertia` out to have it computed from the shapes, or take the tensor from CAD in kg·m² about the
     centre of mass: products with the wrong sign and millimetres or grams are the usual causes.
     A frame without mass may have any tensor.
@@ -53,7 +57,16 @@ def check_inertia(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
         fault = _inertia_fault(moments := principal_moments(link.inertia))
         if fault:
             shown = " ".join(f"{moment:.4g}" for moment in moments) + " kg·m²"
-            yield fault.at(link.source, "inertial", "inertia", link=link.name, mass=f"{link.mass:g}", moments=shown)
+            small, middle, large = moments
+            yield fault.at(
+                link.source,
+                "inertial",
+                "inertia",
+                link=link.name,
+                mass=f"{link.mass:g}",
+                moments=shown,
+                excess=f"{100 * (large - small - middle) / large:.2g}" if large else "",
+            )
 
 
 def _inertia_fault(moments: tuple[float, float, float]) -> Code | None:
@@ -62,9 +75,10 @@ def _inertia_fault(moments: tuple[float, float, float]) -> Code | None:
         return ZERO_INERTIA
     if small <= 0:
         return INDEFINITE_INERTIA
-    if large > small + middle + ROUNDING * large:
+    excess = large - small - middle
+    if excess > NEARLY_FLAT * large:
         return IMPOSSIBLE_INERTIA
-    return None
+    return FLATTER_THAN_A_PLATE if excess > ROUNDING * large else None
 
 
 def principal_moments(inertia: InertiaTensor) -> tuple[float, float, float]:

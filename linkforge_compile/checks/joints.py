@@ -115,6 +115,9 @@ AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
 """A faster joint has its speed in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
 
+WHEEL = 20 * math.pi
+"""A revolute joint that turns further may be a wheel [rad]: exporters give one limits of 1e16."""
+
 NO_SPEED, UNBOUNDED = 100.0, 1000.0
 """The speed that exporters write by default, and that from which on there is no limit [SI]."""
 
@@ -232,10 +235,10 @@ def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
 def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The `effort` and `velocity` of a joint are above 0.
 
-    A limit of 0 is a limit: Gazebo, Bullet and ros2_control hold such a joint still, whatever the command.
-    Exporters of CAD programs write 0 for a missing value; write those of the motor. A joint without a motor
-    that others only push is `continuous` without `limits`, or has limits large enough. A joint that mimics another
-    is moved by it.
+    A limit of 0 is a limit: no motor of a simulator moves a joint without effort, and ros2_control commands no speed to
+    a joint without velocity. Drivers of position-controlled arms read neither, so that vendors leave `effort="0"`;
+    write the motor's, even a guess, before the robot is simulated. Reported once for all such joints. A joint that
+    mimics another is moved by it.
     """
     for joint in robot.joints:
         limits = joint.limits
@@ -250,11 +253,11 @@ def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A revolute joint makes at most ten turns a second, and a prismatic one 20 m/s.
 
     Data sheets give degrees a second and millimetres a second; a bare number is in rad/s or m/s, and only such a
-    number is reported. Write the unit, such as `180 deg/s`. A continuous joint, which may be a wheel, may turn at any
-    speed.
+    number is reported. Write the unit, such as `180 deg/s`. A wheel may turn at any speed: a continuous joint, or a
+    revolute one without a range, or with one of more than ten turns.
     """
     for joint in robot.joints:
-        fastest = FASTEST.get(joint.type)
+        fastest = None if _may_be_wheel(joint) else FASTEST.get(joint.type)
         velocity = joint.limits.velocity if joint.limits else None
         if fastest is None or velocity is None or velocity == NO_SPEED or not fastest < velocity < UNBOUNDED:
             continue
@@ -276,6 +279,14 @@ def check_joint_speed(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
             units=units,
             expected=in_other_unit,
         )
+
+
+def _may_be_wheel(joint: Joint) -> bool:
+    """Return whether a revolute joint has no end, or none that it reaches within WHEEL."""
+    if joint.type != JointType.REVOLUTE or joint.limits is None:
+        return False
+    lower, upper = joint.limits.lower, joint.limits.upper
+    return lower is None or upper is None or upper - lower > WHEEL
 
 
 def check_soft_limits(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.core.models.graph import find_cycles
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
+from linkforge_compile.diagnostics.grouping import SHOWN
 from linkforge_compile.source import Key, SourceRef, Span
 from linkforge_compile.source.provenance import uses_in
 
@@ -207,18 +207,6 @@ def report_unknown(
             near = [name.removeprefix(prefix) for name in candidates if name.startswith(prefix)] if suggests else []
             yield ref.report(code, name=ref.name.removeprefix(prefix), near=near, notes=notes, **facts)
             reported += 1
-
-
-SHOWN = 8
-"""How many names a message lists, and how many notes it has."""
-
-
-def join_names(names: Collection[str], count: int | None = None) -> str:
-    """Return "'a', 'b' and 'c'", or the first few and how many more; `count` is that of all names."""
-    quoted = [f"'{name}'" for name in islice(names, SHOWN)]
-    if (more := (count or len(names)) - SHOWN) > 0:
-        quoted[SHOWN - 1 :] = [f"{more + 1} more"]
-    return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))
 
 
 Graph: TypeAlias = Mapping[str, Sequence[Reference]]

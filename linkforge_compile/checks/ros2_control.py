@@ -311,13 +311,18 @@ def check_hardware_is_used(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnos
     """A sensor, a gpio or a whole system in ros2_control has an interface.
 
     Controllers reach hardware by its interfaces alone. Add `state_interfaces` or `command_interfaces`; nothing
-    is wrong if the hardware's plugin makes its interfaces by itself.
+    is wrong if the hardware's plugin makes its interfaces by itself. A gpio with nothing in it is not reported: it is
+    what is left of a vendor's where no pin is configured.
     """
     for control in robot.ros2_controls:
         parts = ("joints", "gpios", "sensors")
         idle = [
             *((f"ros2_control '{control.name}'", each.source) for each in (control,) if _lacks(each, *parts)),
-            *((f"gpio '{each.name}'", each.source) for each in control.gpios if _lacks(each, COMMANDS, STATES)),
+            *(
+                (f"gpio '{each.name}'", each.source)
+                for each in control.gpios
+                if _lacks(each, COMMANDS, STATES) and each.parameters
+            ),
             *((f"sensor '{each.name}'", each.source) for each in control.sensors if _lacks(each, STATES)),
         ]
         for owner, source in idle:

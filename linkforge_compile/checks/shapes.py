@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from linkforge_compile.checks.mesh_files import MAX_WIDTH, MeshFinder, MeshShape, RobotMeshes
-from linkforge_compile.checks.names import SHOWN, join_names
 from linkforge_compile.core.models.geometry import Mesh, Vector3
 from linkforge_compile.core.models.link import Collision, Link
 from linkforge_compile.core.models.robot import Robot
@@ -23,6 +22,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNTOUCHED_VISUALS,
     WIDE_MESH,
 )
+from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.roots import is_folder
 from linkforge_compile.source import Key
 
@@ -159,8 +159,9 @@ def check_untouched_visuals(robot: Robot, unresolved: UnresolvedNames) -> Iterat
     collision, nor for links without mass, which are ornaments.
     """
     if not unresolved and any(link.collisions for link in robot.links):
-        links = [link for link in robot.links if link.mass and link.visuals and _has_no(link, "collision")]
-        yield from _report_links(links, "visual", UNTOUCHED_VISUALS)
+        for link in robot.links:
+            if link.mass and link.visuals and _has_no(link, "collision"):
+                yield UNTOUCHED_VISUALS.at(link.source, Key("visual"), link=link.name)
 
 
 def check_unseen_collisions(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -170,23 +171,12 @@ def check_unseen_collisions(robot: Robot, unresolved: UnresolvedNames) -> Iterat
     such links; not if no link of the robot has a visual, nor for links without mass.
     """
     if not unresolved and any(link.visuals for link in robot.links):
-        links = [link for link in robot.links if link.mass and link.collisions and _has_no(link, "visual")]
-        yield from _report_links(links, "collision", UNSEEN_COLLISIONS)
+        for link in robot.links:
+            if link.mass and link.collisions and _has_no(link, "visual"):
+                yield UNSEEN_COLLISIONS.at(link.source, Key("collision"), link=link.name)
 
 
 def _has_no(link: Link, key: str) -> bool:
     """Return whether a link has no shape of a kind, not even one that was dropped because of an error."""
     shapes = link.collisions if key == "collision" else link.visuals
     return not shapes and (link.source is None or link.source.node.child(key) is None)
-
-
-def _report_links(links: Sequence[Link], key: str, code: Code) -> Iterator[Diagnostic]:
-    if not links:
-        return
-    first, *others = links
-    notes = [Note(f"link '{link.name}'", link.source.at(Key(key))) for link in others[:SHOWN] if link.source]
-    yield code.at(first.source, Key(key), links=_counted([link.name for link in links]), notes=notes)
-
-
-def _counted(names: Sequence[str]) -> str:
-    return f"link {join_names(names)} has" if len(names) == 1 else f"links {join_names(names)} have"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
-from linkforge_compile.checks.names import SHOWN, Reference, join_names, notes_at, own_positions, report_unknown
+from linkforge_compile.checks.names import Reference, notes_at, own_positions, report_unknown
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
@@ -26,6 +26,7 @@ from linkforge_compile.diagnostics.codes.model import (
     VIRTUAL_NAME_TAKEN,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
+from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.source import Key, Span
 from linkforge_compile.units import WIDEST_ANGLE
 

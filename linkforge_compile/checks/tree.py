@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkforge_compile.checks.names import (
-    SHOWN,
     Graph,
     Reference,
     find_reference_cycles,
-    join_names,
     report_cycles,
     report_unknown,
 )
@@ -21,6 +19,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames, Where
 from linkforge_compile.diagnostics.codes.model import LINK_CYCLE, NO_LINKS, SECOND_PARENT, SEVERAL_ROOTS
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_LINK
+from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 
 _USUAL_ROOT = "base_link"
 

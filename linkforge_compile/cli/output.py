@@ -130,7 +130,7 @@ def refuse_links_out(outputs: Iterable[Path], folders: Iterable[Path], option: s
     roots = Roots(tuple(Path(identity(folder)) for folder in folders))
     for output in outputs:
         if not roots.hold(output):
-            what = f"'{output}' is behind a link that leads out of its folder"
+            what = f"'{output}' is reached by a link that leads out of its folder"
             raise UsageError(f"{what}; remove the link, or write elsewhere with {option}")
 
 

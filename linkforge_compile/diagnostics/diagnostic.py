@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.source import SourceRef, Span
@@ -39,6 +39,13 @@ class Note:
         object.__setattr__(self, "message", _quotable(self.message))
 
 
+class OneOf(NamedTuple):
+    """What a diagnostic has in common with others of its code: all but the name of the part at fault."""
+
+    name: str
+    alike: tuple[object, ...] = ()
+
+
 @dataclass(frozen=True)
 class Diagnostic:
     """One fault; `message` is lower case, without full stop, with the user's own words in quotes."""
@@ -53,6 +60,8 @@ class Diagnostic:
     """How many more like it are omitted; a note counts them."""
     full_text_hash: int = 0
     """A hash of the message before it was shortened, 0 if it was not; it keeps two long messages distinct."""
+    one_of: OneOf | None = None
+    """Those of one file that are alike are reported as one."""
 
     @property
     def severity(self) -> Severity:
@@ -87,6 +96,10 @@ class Code:
     in_xml: str = ""
     ends_report: bool = False
     """Whether it says that the report is incomplete: it comes last and is always shown."""
+    named: str = ""
+    """The fact that names the part at fault, if many parts have this fault for one cause: they are grouped."""
+    alike: tuple[str, ...] = ()
+    """The facts that agree in a group."""
 
     @property
     def title(self) -> str:
@@ -117,7 +130,9 @@ class Code:
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
-        return Diagnostic(self, _quotable(whole), span, (*notes, *notes_of(chain)), full_text_hash=full_text_hash)
+        all_notes = (*notes, *notes_of(chain))
+        one_of = OneOf(str(facts[self.named]), tuple(facts[fact] for fact in self.alike)) if self.named else None
+        return Diagnostic(self, _quotable(whole), span, all_notes, full_text_hash=full_text_hash, one_of=one_of)
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from linkforge_compile.editor.vocabulary import Vocabulary
+from linkforge_compile.editor.vocabulary import Entries, Vocabulary
 from linkforge_compile.expand.listing import ListedParameter
 from linkforge_compile.schema.json_schema import PATCH_SUFFIX, Json, Schema, branches, mapping, reference
 from linkforge_compile.syntax.nodes import scalar_value
@@ -142,17 +142,18 @@ def snippet(name: str, description: str) -> Schema:
     return {"label": name, "description": description, "body": re.sub(r"[$}\\]", r"\\\g<0>", written)}
 
 
-def complete_module(parameters: Sequence[ListedParameter], entries: Mapping[str, Sequence[str]]) -> Schema:
-    """Return completions for an entry of `modules`: parameters under `with`, and names to override.
-
-    `entries` has the module's own names by section.
-    """
-    override: Schema = {
-        # With a union, the server inserts a key with its colon.
-        section: _only_in({name: {"anyOf": [{}]} for name in names})
-        for section, names in entries.items()
+def complete_module(parameters: Sequence[ListedParameter], entries: Entries) -> Schema:
+    """Return completions for an entry of `modules`: parameters under `with`, and names to override."""
+    return {
+        "properties": {"with": _only_in(complete_arguments(parameters)), "override": _complete_override(entries)},
     }
-    return {"properties": {"with": _only_in(complete_arguments(parameters)), "override": _only_in(override)}}
+
+
+def _complete_override(entries: Sequence[str] | Entries) -> Schema:
+    if isinstance(entries, Mapping):
+        return _only_in({section: _complete_override(inner) for section, inner in entries.items()})
+    # With a union, the server inserts a key with its colon.
+    return _only_in({name: {"anyOf": [{}]} for name in entries})
 
 
 def if_used(use: str, completion: Schema) -> Schema:
@@ -183,6 +184,8 @@ def _complete_argument(parameter: ListedParameter) -> Schema:
         values = [True, False]
     elif not values and parameter.value is not None and parameter.type not in ("list", "map", "vector"):
         values = [parameter.default if unit or isinstance(parameter.value, str) else parameter.value]
+    elif not values and parameter.value is None and parameter.default and "$" not in parameter.default:
+        values = [parameter.default]  # of a xacro, whose defaults are not computed
     completion: Schema = {"title": parameter.type or "a parameter", "description": text.replace("`", "'")}
     # With examples or a union, the server inserts a key with its colon.
     return completion | {"markdownDescription": text} | ({"examples": values} if values else {"anyOf": [{}]})

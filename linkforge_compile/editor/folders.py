@@ -19,6 +19,9 @@ MAX_SPECS = 200
 
 MAX_FOLDERS = 20_000
 
+_MODELINE = re.compile(r"(?:\s*#.*\n)*?\s*#\s*(?:yaml-language-server:.*)?\$schema\s*[:=]")
+"""Comments at the top of a file, one of which names its schema."""
+
 _OUTPUT_FOLDERS = frozenset({"build", "install", "log", "node_modules", "__pycache__"})
 """Folders that tools write; colcon copies specs into some of them."""
 
@@ -228,6 +231,17 @@ def _up_to(folder: Path, *markers: str) -> tuple[Path, ...]:
     held = (number for number, one in enumerate(places) if any((one / marker).exists() for marker in markers))
     above = places[1 : next(held, 0) + 1]
     return above if folder.is_absolute() else tuple(Path(os.path.relpath(one)) for one in above)
+
+
+def has_editor_schema(file: Path) -> bool:
+    """Whether editors know the schema of a file: by its name, or by a comment at its top."""
+    if file.name.endswith(SPEC_ENDINGS):
+        return True
+    try:
+        text = file.read_text("utf-8", "replace") if is_file(file) else ""
+    except OSError:
+        return False
+    return _MODELINE.match(text) is not None
 
 
 def schemas_below(root: Path, specs: Iterable[Path]) -> tuple[Path, ...]:

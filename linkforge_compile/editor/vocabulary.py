@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
@@ -22,7 +24,18 @@ from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.lower import lower
 from linkforge_compile.roots import Roots
-from linkforge_compile.syntax import YamlEntry, YamlMap
+from linkforge_compile.schema.shapes import Shape, shapes
+from linkforge_compile.syntax import YamlMap, YamlScalar
+
+Entries: TypeAlias = Mapping[str, "Sequence[str] | Entries"]
+"""Names by section, as an override addresses them; those of `semantic` are a map by its own sections."""
+
+
+class UsedFile(NamedTuple):
+    """The parameters of a file that a spec uses as a module, and the names in it."""
+
+    parameters: tuple[ListedParameter, ...] = ()
+    entries: Entries = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -30,8 +43,8 @@ class Vocabulary:
     """The words of one spec.
 
     `files` are the spec and the files it includes, relative to the workspace, with `/`. `names` are final names with
-    their prefixes, by kind of part, in the robot's order. `arguments` are the parameters of the modules that it uses,
-    by the text of `use`. `entries` are the names in the spec itself, by section, which an override of it can address.
+    their prefixes, by kind of part, in the robot's order. `used` are the files that it uses as modules, by the text of
+    `use`. `entries` are the names in the spec itself, which an override of it can address.
     `is_whole` is False if names are missing because of errors; those that depend on a parameter without a value are
     missing in any case. `has_name` is False if the spec is a part that other specs include.
     """
@@ -39,8 +52,8 @@ class Vocabulary:
     files: tuple[str, ...]
     names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     parameters: tuple[ListedParameter, ...] = ()
-    arguments: Mapping[str, tuple[ListedParameter, ...]] = field(default_factory=dict)
-    entries: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    used: Mapping[str, UsedFile] = field(default_factory=dict)
+    entries: Entries = field(default_factory=dict)
     is_whole: bool = True
     has_name: bool = True
 
@@ -68,15 +81,16 @@ def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, ru
         included = (part.path for part in spec.included if part.path)
         files = dict.fromkeys((*found.files, *(_relative(part, root) for part in included)))
         own = list_parameters(spec, loader, Diagnostics()).parameters
-        used = {use: listing.parameters for use, listing in list_used(spec, loader).items()}
+        used = {use: UsedFile(listing.parameters) for use, listing in list_used(spec, loader).items()}
         has_name = spec.tree.get("name") is not None
-        found = replace(found, files=tuple(files), parameters=own, arguments=used, has_name=has_name)
+        found = replace(found, files=tuple(files), parameters=own, used=used, has_name=has_name)
         expanded = expand(spec, Arguments(), loader, sink, unset=Unset.NOTE)
         robot = lower(_without_meshes(expanded), sink).robot
     except BeyondLimitError:
         return found
     is_whole = robot is not None and not sink.has_errors
-    return replace(found, names=_names(robot) if robot else {}, entries=_entries(expanded), is_whole=is_whole)
+    names = _names(robot) if robot else {}
+    return replace(found, names=names, used=_used(expanded, used), entries=_entries(expanded), is_whole=is_whole)
 
 
 def _without_meshes(instance: Instance) -> Instance:
@@ -84,22 +98,46 @@ def _without_meshes(instance: Instance) -> Instance:
     return replace(instance, find_mesh=lambda _path, _where, _sink: None, modules=modules)
 
 
-def _entries(instance: Instance) -> dict[str, tuple[str, ...]]:
+def _used(instance: Instance, listed: Mapping[str, UsedFile]) -> dict[str, UsedFile]:
+    """Return the used files with the names in each, those of the first module that could be read."""
+    found = {**listed}
+    for module in instance.modules:
+        use = module.entry.node.child("use") if module.entry else None
+        if isinstance(use, YamlScalar) and module.tree:
+            one = found.setdefault(use.text, UsedFile())
+            found[use.text] = one if one.entries else one._replace(entries=_entries(module))
+    return found
+
+
+def _entries(instance: Instance) -> Entries:
     """Return the names in each section of a file; for an override, a frame is a link and a joint."""
-    frames = _section(instance, "frames")
-    names = {section: [entry.name for entry in _section(instance, section)] for section in _SECTIONS}
-    names["links"] += [frame.name for frame in frames]
-    names["joints"] += [joint_name_of(frame.name, frame.value) for frame in frames if isinstance(frame.value, YamlMap)]
-    names["modules"] = [module.name for module in instance.modules]
-    return {section: tuple(name for name in own if "$(" not in name) for section, own in names.items() if own}
+    if instance.tree is None:
+        return {}
+    frames = instance.tree.get("frames")
+    joined = [entry for entry in frames if isinstance(entry.value, YamlMap)] if isinstance(frames, YamlMap) else []
+    more = {
+        "links": _without_expressions(entry.name for entry in joined),
+        "joints": _without_expressions(joint_name_of(entry.name, entry.value) for entry in joined),
+        "modules": _without_expressions(module.name for module in instance.modules),
+    }
+    names = _names_in(instance.tree, shapes().under("modules").under("").under("override"))
+    return {**names, **{section: (*names.get(section, ()), *added) for section, added in more.items() if added}}
 
 
-_SECTIONS = ("links", "joints", "materials", "sensors", "transmissions", "ros2_control")
+def _names_in(node: YamlMap, shape: Shape) -> dict[str, Sequence[str] | Entries]:
+    """Return the names in each section of an object, and in those of the objects in it."""
+    found: dict[str, Sequence[str] | Entries] = {}
+    for key in shape.keys:
+        section, inner = node.get(key), shape.under(key)
+        if isinstance(section, YamlMap):
+            is_section = inner.has_names
+            own = _without_expressions(entry.name for entry in section) if is_section else _names_in(section, inner)
+            found |= {key: own} if own else {}
+    return found
 
 
-def _section(instance: Instance, name: str) -> tuple[YamlEntry, ...]:
-    section = instance.tree.get(name) if instance.tree else None
-    return tuple(section) if isinstance(section, YamlMap) else ()
+def _without_expressions(names: Iterable[str]) -> tuple[str, ...]:
+    return tuple(name for name in names if "$(" not in name)
 
 
 def _names(robot: Robot) -> dict[str, tuple[str, ...]]:

@@ -10,6 +10,7 @@ import posixpath
 from collections.abc import Iterable, Sequence
 from urllib.parse import quote
 
+from linkforge_compile.editor.bundle import bundle
 from linkforge_compile.editor.completions import (
     ARGUMENT,
     NAMES,
@@ -20,7 +21,6 @@ from linkforge_compile.editor.completions import (
     marked_names,
 )
 from linkforge_compile.editor.vocabulary import Vocabulary
-from linkforge_compile.schema.bundle import bundle
 from linkforge_compile.schema.json_schema import Json, Schema, mapping
 
 
@@ -99,10 +99,10 @@ class _Modules:
         """Return the completions in a file, also for specs that it names in its own way or that are in packages."""
         folder = posixpath.dirname(file)
         completions = self.paths.entries_from(folder)
-        for use, parameters in vocabulary.arguments.items():
+        for use, used in vocabulary.used.items():
             spec = posixpath.normpath(posixpath.join(folder, use))
             if spec not in self._names:
-                completions.append(if_used(use, complete_module(parameters, {})))
+                completions.append(if_used(use, complete_module(used.parameters, used.entries)))
             elif use != posixpath.relpath(spec, folder or "."):
                 completions.append(if_used(use, _reference(self._names[spec])))
         return completions

@@ -16,10 +16,10 @@ from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
-from linkforge_compile.expand.uses import SPEC_ENDINGS, open_use
+from linkforge_compile.expand.uses import SPEC_ENDINGS, XACRO, PathSite, locate, open_use
 from linkforge_compile.expand.xacro import in_order
 from linkforge_compile.expressions import FAULT, Value
-from linkforge_compile.paths import find_package
+from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
@@ -109,20 +109,27 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
 
 
 def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
-    """List what each spec that a file uses declares, by the text of `use`, whether or not its `when` holds.
+    """List what each spec or xacro that a file uses declares, by the text of `use`, whether or not its `when` holds.
 
     A file that cannot be read is left out, as is a computed `use`; compiling reports them.
     """
-    ignored = Diagnostics()
-    scope = _scope_without_arguments(spec, loader, ignored)
-    listed: dict[str, Listing] = {}
+    scope = _scope_without_arguments(spec, loader, Diagnostics())
+    listed: dict[str, Listing | None] = {}
     for entry in spec.tree.section("modules").values():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
-        if isinstance(use, YamlScalar) and use.text not in listed and use.text.lower().endswith(SPEC_ENDINGS):
-            used = open_use(scope.site(use.text, use.span), loader, ignored)
-            if used:
-                listed[use.text] = list_parameters(used, loader, ignored)
-    return listed
+        if isinstance(use, YamlScalar) and use.text not in listed:
+            listed[use.text] = _list_module(scope.site(use.text, use.span), loader, Diagnostics())
+    return {use: listing for use, listing in listed.items() if listing}
+
+
+def _list_module(site: PathSite, loader: Loader, sink: Diagnostics) -> Listing | None:
+    """List what the spec or xacro at a site declares; None for any other file, and after a reported error."""
+    lowered = site.text.lower()
+    if lowered.endswith(XACRO):
+        target = locate(site, loader, sink)
+        return list_arguments(target.path, loader, sink, site.used) if target else None
+    used = open_use(site, loader, sink) if lowered.endswith(SPEC_ENDINGS) else None
+    return list_parameters(used, loader, sink) if used else None
 
 
 def as_written(node: YamlNode) -> str:
@@ -188,13 +195,15 @@ _MAX_INCLUDE_DEPTH = 50
 _COMPUTED_NAME = "its name is known only as xacro runs"
 
 
-def list_arguments(path: Path, loader: Loader, sink: Diagnostics) -> Listing | None:
+def list_arguments(path: Path, loader: Loader, sink: Diagnostics, used: ImportSite | None = None) -> Listing | None:
     """List the arguments of a xacro file, each with its first default; None after a reported error.
+
+    `used` is where a spec names the file, which it may then not be allowed to read; None for the command line.
 
     A note reports an include that cannot be followed, because its name is computed or it cannot be read. Conditions
     are ignored. An argument that is used but not declared is required.
     """
-    file = loader.open_xml(path, sink)
+    file = loader.open_xml(path, sink, used)
     root = _read_root(file, sink) if file else None
     if root is None:
         return None
@@ -271,7 +280,7 @@ class _ArgumentSearch:
         if kind == "dirname":
             return str(user.parent.absolute())
         if kind == "find":
-            folder = find_package(name, self._loader.packages, user.parent, self._loader.roots)
+            folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
             if folder is None:
                 raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
             return str(folder)

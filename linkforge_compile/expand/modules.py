@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from pathlib import Path
 
-from linkforge_compile.diagnostics import DeletedNames, Diagnostics, Note
+from linkforge_compile.diagnostics import DeletedNames, Diagnostics
 from linkforge_compile.diagnostics.codes.modules import (
     MODULE_FIELD,
     MODULE_WITHOUT_FILE,
@@ -17,10 +17,11 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.defaults import with_frames_as_joints
+from linkforge_compile.expand.deletions import deleted_names, without_links
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.loader import SpecFile
-from linkforge_compile.expand.override import SECTIONS, Override, apply_patch, deletes, report_empty
+from linkforge_compile.expand.override import Override, apply_patch, report_empty
 from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
@@ -174,9 +175,6 @@ def _report_field(node: YamlNode, field: str, name: str, expected: str, sink: Di
     return YamlFault(node.span)
 
 
-_SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
-
-
 @dataclass(frozen=True)
 class ModuleBody:
     """The content of one use of a file before its modules are read; `removed` are the names deleted so far."""
@@ -194,7 +192,7 @@ class ModuleBody:
         modules = YamlMap({entry.name: _section_entry(entry) for entry in self.entries}, self.tree.span)
         before = with_frames_as_joints(self.tree.with_value("modules", modules))
         patched = apply_patch(own, before, self.removed)
-        patched = _without_links(patched, {*before.section("links")} - {*patched.section("links")})
+        patched = without_links(patched, {*before.section("links")} - {*patched.section("links")})
         left = patched.section("modules")
         patched_entries = (
             _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
@@ -205,7 +203,7 @@ class ModuleBody:
             replace(entry, overrides=(*entry.overrides, nested[entry.name])) if entry.name in nested else entry
             for entry in patched_entries
         )
-        names = dict(_deleted_names(before, patched, own.patch))
+        names = dict(deleted_names(before, patched, own.patch))
         gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
         names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
         removed = DeletedNames(names, {entry.prefix: note for entry, note in gone}) | self.removed
@@ -239,72 +237,3 @@ def _patched_entry(entry: ModuleEntry, fields: YamlNode, before: YamlNode, overr
         return entry
     arguments = replace(entry.arguments, entries=fields.section("with"))
     return with_fields(replace(entry, arguments=arguments), fields.without("with"), override.sink)
-
-
-def _deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[tuple[str, Note]]:
-    """Yield each name that a patch has removed, with a note that shows where it is deleted."""
-    yield from _deleted_in(before, after, patch, SECTIONS)
-    semantic, left, semantic_patch = (tree.get("semantic") for tree in (before, after, patch))
-    if isinstance(semantic, YamlMap) and isinstance(semantic_patch, YamlMap):
-        left = left if isinstance(left, YamlMap) else YamlMap({}, after.span)
-        yield from _deleted_in(semantic, left, semantic_patch, _SEMANTIC_SECTIONS)
-
-
-def _deleted_in(
-    before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]
-) -> Iterator[tuple[str, Note]]:
-    deleted = ((section, entry) for section in sections for entry in before.section(section).values())
-    for section, entry in deleted:
-        if entry.name in after.section(section):
-            continue
-        child = _child_of(entry) if section in ("joints", "mount") else None
-        if where := _deletion(patch, section, entry.name):
-            yield entry.name, Note(f"'{entry.name}' is deleted by this override", where)
-        elif child and (where := _deletion(patch, "links", child)):
-            yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
-        else:
-            yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
-
-
-def _deletion(patch: YamlMap, section: str, name: str) -> Span | None:
-    """Return where a patch deletes an entry or its whole section, None if it does not."""
-    whole = patch.entries.get(section)
-    deletion = whole.value.entries.get(name) if whole and isinstance(whole.value, YamlMap) else whole
-    return deletion.key.span if deletion and deletes(deletion.value) else None
-
-
-def _without_links(tree: YamlMap, links: set[str]) -> YamlMap:
-    """Return a tree without what refers to deleted links: joints to them, Gazebo blocks, collision pairs, spheres."""
-    if not links:
-        return tree
-    gone = set(links)
-    for name in ("joints", "mount"):
-        joints = tree.get(name)
-        if isinstance(joints, YamlMap):
-            kept = joints.only(lambda joint: _child_of(joint) not in links)
-            gone |= joints.entries.keys() - kept.entries.keys()
-            tree = tree.with_value(name, kept)
-    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
-    if isinstance(gazebo, YamlList | YamlMap):
-        blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
-        left = (one for one in blocks if not (isinstance(one, YamlMap) and one.text("reference") in gone))
-        tree = tree.with_value("gazebo", YamlList(tuple(left), gazebo.span))
-    if not isinstance(semantic, YamlMap):
-        return tree
-    for name in ("disabled_collisions", "enabled_collisions", "link_sphere_approximations"):
-        part = semantic.get(name)
-        if isinstance(part, YamlMap):
-            # The values of pairs are maps of links; those of spheres have other keys.
-            of_others = part.without(*links)
-            is_pairs = name != "link_sphere_approximations"
-            others = of_others.mapped(lambda one: _without_keys(one.value, links)) if is_pairs else of_others
-            semantic = semantic.with_value(name, others)
-    return tree.with_value("semantic", semantic)
-
-
-def _without_keys(node: YamlNode, keys: set[str]) -> YamlNode:
-    return node.without(*keys) if isinstance(node, YamlMap) else node
-
-
-def _child_of(joint: YamlEntry) -> str | None:
-    return joint.value.text("child") if isinstance(joint.value, YamlMap) else None

@@ -137,7 +137,9 @@ class _Patcher:
             return self.patch_map(old if isinstance(old, YamlMap) else YamlMap({}, new.span), new, shape)
         if isinstance(new, YamlMap) and isinstance(old, YamlMap):
             return self.patch_map(old, new, shape)
-        values = [plain_value(one) for one in (old, new) if one is not None]
+        # A computed value may be another one in another variant.
+        constants = () if old is None or _is_computed(old) or _is_computed(patch) else (old, new)
+        values = [plain_value(one) for one in constants]
         comparable = [_comparable(value, field, shape) for value in values if not isinstance(value, Fault)]
         if len(comparable) == 2 and comparable[0] == comparable[1]:
             self._sink.report(SAME_AS_BEFORE.at(patch.span, field=field))
@@ -246,6 +248,15 @@ def _comparable(value: Value, field: str, shape: Shape) -> Value:
         case Mapping():
             return {name: _comparable(item, name, FREE) for name, item in value.items()}
     return value
+
+
+def _is_computed(node: YamlNode) -> bool:
+    """Return whether a scalar, or an item of a list or value of a map, was written as an expression."""
+    if isinstance(node, YamlList):
+        return any(map(_is_computed, node.items))
+    if isinstance(node, YamlMap):
+        return any(_is_computed(entry.value) for entry in node)
+    return "$(" in (node.span.text or "")
 
 
 def with_tags_as_patched(block: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:

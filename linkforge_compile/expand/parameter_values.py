@@ -39,7 +39,7 @@ from linkforge_compile.limits import Limit
 from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.provenance import Kind
-from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read
+from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
 
 _MAX_SHOWN = 8
 """How many parameters and variants a message shows."""
@@ -98,7 +98,7 @@ class BoundArguments:
                 self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared, notes=notes))
 
     def node(self, name: str, type_: ParameterType) -> YamlNode | None:
-        """Return the argument for a parameter, None for none; a list or map typed as text is parsed."""
+        """Return the argument for a parameter, None for none; a list, map or vector typed as text is parsed."""
         entry = self.arguments.entries.get(name)
         if entry is None or (isinstance(entry.value, YamlScalar) and entry.value.value is None):
             return None
@@ -107,7 +107,10 @@ class BoundArguments:
             return node
         file = SourceFile(node.span.file.name, f"{name}: {node.text}")
         parsed = read(file, self.sink)
-        return YamlFault(node.span) if parsed is None else parsed.get(name) or node
+        value = None if parsed is None else parsed.get(name)
+        if parsed is None or value is None:
+            return YamlFault(node.span) if parsed is None else node
+        return _numbers_in(value) if type_.name == "vector" else value
 
     def settings(self, name: str, node: YamlNode) -> list[Setting]:
         """Return what set a parameter to the node, then what overrides replaced by it."""
@@ -118,6 +121,15 @@ class BoundArguments:
             nodes.append(entry.value)
             entry = entry.replaced
         return [Setting(kind, one, self.evaluator, one.span.file.text if is_typed else "") for one in nodes]
+
+
+def _numbers_in(node: YamlNode) -> YamlNode:
+    """Return a list of the numbers in a text with blanks between them, as xacro has them; other nodes as they are."""
+    if not isinstance(node, YamlScalar) or len(parts := node.text.split()) < 2:
+        return node
+    numbers = tuple(YamlScalar(part, scalar_value(part), node.span) for part in parts)
+    is_vector = all(isinstance(number.value, int | float) for number in numbers)
+    return YamlList(numbers, node.span) if is_vector else node
 
 
 def parameter_value(

@@ -16,6 +16,7 @@ from linkforge_compile.expressions import (
     Template,
     Value,
     as_text,
+    as_written,
     evaluate,
     forgotten_expression,
     parse_template,
@@ -43,8 +44,12 @@ from linkforge_compile.units import Quantity, number_text, parse_quantity
 def plain_value(node: YamlNode) -> Value | Fault:
     """Return the value of a node without computing `$(...)`; text such as `3 kg` is a quantity. FAULT for a fault."""
     match node:
+        case YamlScalar(value=str() as text):
+            return parse_quantity(text) or text
+        case YamlScalar(value=int() | float() as number) if not isinstance(number, bool):
+            return as_written(number, node.text)
         case YamlScalar():
-            return (parse_quantity(node.value) or node.value) if isinstance(node.value, str) else node.value
+            return node.value
         case YamlList():
             items = tuple(plain_value(item) for item in node)
             return FAULT if FAULT in items else tuple(item for item in items if item is not FAULT)
@@ -58,7 +63,7 @@ def plain_value(node: YamlNode) -> Value | Fault:
 def node_of(value: Value, span: Span) -> YamlNode:
     """Return a value as a tree; every node gets the span of the expression, as a part of it.
 
-    The text of a scalar is its shortest form, of a quantity the number in SI units, of null empty.
+    The text of a scalar is that of `as_text`, of null empty.
     """
     if isinstance(value, tuple):
         return YamlList(tuple(node_of(item, span.inside(place)) for place, item in enumerate(value)), span)

@@ -27,6 +27,7 @@ from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
+from linkforge_compile.expand.xacro_answers import XacroAnswers
 from linkforge_compile.expressions import Fault
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.source import SourceFile, Span
@@ -116,8 +117,10 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     if os.environ.get(FORBIDDEN) or not loader.runs_xacro:
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
-    answers = XacroAnswers(use, loader)
+    answers = XacroAnswers(use.path, {**use.packages, **loader.packages}, loader.roots)
     result = run_xacro(use.path, arguments, answers)
+    while isinstance(result, Failed) and result.missing and answers.change_package(result.missing):
+        result = run_xacro(use.path, arguments, answers)
     written = WrittenElements(result, main, loader)
     inside = with_use_trace(sink, (use.used.where,))
     reporter = XacroReporter(use, written, loader, sink, inside)
@@ -176,33 +179,6 @@ class XacroUse:
     packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
-
-
-class XacroAnswers:
-    """Answers the questions of the xacro process, and records what it may not have."""
-
-    def __init__(self, use: XacroUse, loader: Loader) -> None:
-        self._use, self._loader = use, loader
-        self.packages: dict[str, Path] = {}
-        self.missing_packages: list[str] = []
-        self.refused: list[Path] = []
-        """Files outside of the roots."""
-
-    def find(self, name: str) -> Path | None:
-        declared = {**self._use.packages, **self._loader.packages}
-        folder = find_package(name, declared, self._use.path.parent, self._loader.roots)
-        if folder is None:
-            self.missing_packages.append(name)
-        else:
-            self.packages[name] = folder
-        return folder
-
-    def may_read(self, path: Path) -> bool:
-        # The loader has read the file itself already.
-        is_allowed = path == self._use.path.absolute() or self._loader.roots.hold(path)
-        if not is_allowed:
-            self.refused.append(path)
-        return is_allowed
 
 
 class WrittenElements:

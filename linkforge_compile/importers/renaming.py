@@ -96,7 +96,7 @@ def _with_names(element: XmlElement, renamed: Renamed) -> XmlElement:
     )
     children = tuple(item for item in content if isinstance(item, XmlElement))
     text = "".join(item for item in content if isinstance(item, str))
-    return element._replace(values=values, content=content, children=children, text=text)
+    return element.with_content(values, content, children, text)
 
 
 def _new_name(text: str, renamed: Renamed) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
-from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, URDF_FOR_SRDF
+from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, SRDF_OF_MORE, URDF_FOR_SRDF
+from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.importers.document import Comments, Imported, Move, read_document
 from linkforge_compile.importers.renaming import rename_references
 from linkforge_compile.importers.spec_draft import CannotRepresentError
@@ -26,8 +27,13 @@ _MAX_READ = 20_000
 
 _REFERENCES = ("link", "link1", "link2", "base_link", "tip_link", "parent_link", "child_link", "joint_name")
 """Attributes that name links and joints."""
+_GROUP_REFERENCES = ("group", "parent_group")
+"""Attributes that name planning groups."""
 _NAMED_BY_NAME = ("link", "joint", "passive_joint")
 """Tags whose attribute `name` names a link or joint."""
+
+_SEVERAL = 3
+"""So many unknown names are parts that the robot does not have; fewer are probably misspelled, and reported each."""
 
 
 def with_srdf(
@@ -57,12 +63,53 @@ def with_srdf(
         if found.keys() <= refused.keys():
             break
         refused |= found
-    other = _find_other_robot(document, urdf.tree)
-    if other:
-        sink.report(other)
-    # For an SRDF of another robot, one report replaces those about its parts.
-    sink.report_all(one for one in round_sink if not (other and one.code is KEPT_RAW))
+    sink.report_all(_without_absent_parts(round_sink, document, whole.tree))
     return whole, checked
+
+
+def _without_absent_parts(found: Diagnostics, document: XmlDocument, robot: YamlMap) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of an SRDF; one replaces those about parts of another robot, or of a larger one."""
+    if other := _find_other_robot(document, robot):
+        yield other
+        yield from (one for one in found if one.code is not KEPT_RAW)
+        return
+    absent = _find_absent_parts(document, robot)
+    names = dict.fromkeys(one.value for one in absent)
+    if len(names) < _SEVERAL:
+        yield from found
+        return
+    yield SRDF_OF_MORE.at(absent[0].span, robot=_name_of(robot), names=join_names(names))
+    explained = {one.span for one in absent} | set(_spans_of_absent_groups(document, robot))
+    yield from (one for one in found if not (one.code is KEPT_RAW and one.span in explained))
+
+
+def _find_absent_parts(document: XmlDocument, robot: YamlMap) -> list[XmlAttribute]:
+    """Return what names links and joints that neither the robot nor the SRDF has, in the order of the file."""
+    known = SemanticNames.of(robot)
+    names = known.links | known.joints | _names_in(robot, "virtual_joints")
+    return [one for one in _references(document.root) if one.value not in names]
+
+
+def _spans_of_absent_groups(document: XmlDocument, robot: YamlMap) -> Iterator[Span]:
+    """Yield the elements and attributes that name planning groups which are not in the spec."""
+    groups = _names_in(robot, "groups")
+    for element in _descendants(document.root):
+        for name, attribute in element.attributes.items():
+            if (name in _GROUP_REFERENCES or (name == "name" and element.tag == "group")) and (
+                attribute.value not in groups
+            ):
+                yield from (element.span, attribute.span)
+
+
+def _names_in(robot: YamlMap, section: str) -> set[str]:
+    semantic = robot.get("semantic")
+    entries = semantic.child(section) if semantic else None
+    return {entry.name for entry in entries} if isinstance(entries, YamlMap) else set()
+
+
+def _name_of(robot: YamlMap) -> str:
+    name = robot.get("name")
+    return name.text if isinstance(name, YamlScalar) else ""
 
 
 def _find_other_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | None:
@@ -71,9 +118,8 @@ def _find_other_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | Non
     if not references or any(one.value in known.links or one.value in known.joints for one in references):
         return None
     names = {one.value for one in references}
-    name = robot.get("name")
-    robot_name = name.text if isinstance(name, YamlScalar) else ""
-    return SRDF_OF_ANOTHER.at(references[0].span, robot=robot_name, name=references[0].value, count=len(names))
+    first = references[0]
+    return SRDF_OF_ANOTHER.at(first.span, robot=_name_of(robot), name=first.value, count=len(names))
 
 
 def _references(element: XmlElement) -> Iterator[XmlAttribute]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.joint import HAVE_NO_AXIS, Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS, Joint, JointLimits, JointType
 from linkforge_compile.diagnostics.codes.model import (
     JOINT_TO_ITSELF,
     LIMITS_CROSSED,
@@ -144,7 +144,7 @@ def _lower_axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 |
 
 
 def _lower_limits(fields: Fields, joint_type: JointType | None, motion: Motion) -> JointLimits | None:
-    if joint_type is JointType.FIXED:
+    if joint_type in HAVE_NO_LIMITS:
         _refuse(fields, "limits", joint_type)
         return None
     example = _LIMITS_EXAMPLE.get(joint_type, "") if joint_type else ""

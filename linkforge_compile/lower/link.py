@@ -37,7 +37,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.lower.elements import extras_of, lower_element, lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.lower.numbers import NumberType
+from linkforge_compile.lower.numbers import EXTENT, EXTENT_OF_GROUND, NumberType
 from linkforge_compile.lower.shapes import FileScope, lower_geometry, lower_visual_material
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.source.provenance import join_links, overrides_of
@@ -57,8 +57,9 @@ def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | No
 
 def _lower_link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     is_valid = fields.name_is_valid(name, "link")
-    visuals = [_lower_visual(fields.map_at(node, "visual"), scope) for node in fields.items("visual")]
-    collisions = _lower_collisions(fields, visuals, scope)
+    extent = _extent_of_shapes(fields)
+    visuals = [_lower_visual(fields.map_at(node, "visual"), scope, extent) for node in fields.items("visual")]
+    collisions = _lower_collisions(fields, visuals, scope, extent)
     inertial = _lower_inertial(fields, collisions or visuals, scope)
     physics = fields.map("physics")
     lowered_physics = lower_element(LinkPhysics, physics) if physics else None
@@ -88,20 +89,30 @@ def _source_of(link: Fields) -> SourceRef:
 # Shapes
 
 
-def _lower_visual(shape: Fields | None, scope: FileScope) -> Visual | None:
+def _extent_of_shapes(link: Fields) -> NumberType:
+    """Return which sizes are plausible; a link of mass 0 is Bullet's ground, which may be very wide."""
+    inertial = link.node.get("inertial")
+    mass = inertial.child("mass") if inertial else None
+    is_ground = isinstance(mass, YamlScalar) and mass.value == 0 and mass.value is not False
+    return EXTENT_OF_GROUND if is_ground else EXTENT
+
+
+def _lower_visual(shape: Fields | None, scope: FileScope, extent: NumberType) -> Visual | None:
     if shape is None:
         return None
-    geometry, material = lower_geometry(shape, scope), lower_visual_material(shape, scope)
+    geometry, material = lower_geometry(shape, scope, extent), lower_visual_material(shape, scope)
     return lower_element(Visual, shape, geometry=geometry, material=material)
 
 
-def _lower_collisions(link: Fields, visuals: list[Visual | None], scope: FileScope) -> list[Collision | None]:
+def _lower_collisions(
+    link: Fields, visuals: list[Visual | None], scope: FileScope, extent: NumberType
+) -> list[Collision | None]:
     """Lower `collision`: a shape, a list of them, or `visual` for the shapes of the visuals."""
     node = link.node.get("collision")
     if not isinstance(node, YamlScalar):
         shapes = (link.map_at(shape, "collision") for shape in link.items("collision"))
         return [
-            lower_element(Collision, shape, geometry=lower_geometry(shape, scope)) if shape else None
+            lower_element(Collision, shape, geometry=lower_geometry(shape, scope, extent)) if shape else None
             for shape in shapes
         ]
     if node.text != "visual":

@@ -55,6 +55,9 @@ _ANGLE, _LENGTH = (Dimension.ANGLE,), (Dimension.LENGTH,)
 _LARGEST_PLAUSIBLE: dict[tuple[Dimension, ...], float] = {_ANGLE: WIDEST_ANGLE, _LENGTH: 100.0}
 """Larger numbers [rad], [m] are probably degrees or millimetres."""
 
+_UNLIMITED_LENGTH, _NO_LIMIT = 1e5, (9_999.0, 99_999.0)
+"""A length [m] that even in millimetres is none of a robot's, and others that vendors write where there is no limit."""
+
 
 class NumberType:
     """The numbers that a field accepts: bare ones, and quantities of one of `dimensions`.
@@ -94,6 +97,7 @@ BARE = NumberType()
 FRACTION = NumberType(bound=ZERO_TO_ONE)
 LENGTH = NumberType(_LENGTH)
 EXTENT = NumberType(_LENGTH, ABOVE_ZERO)
+EXTENT_OF_GROUND = NumberType(_LENGTH, ABOVE_ZERO, may_be_far=True)
 ANGLE = NumberType(_ANGLE)
 ANGLE_OR_LENGTH = NumberType((*_ANGLE, *_LENGTH))
 """The position of a joint of unknown type: it turns [rad] or slides [m]."""
@@ -167,7 +171,7 @@ def suspicious_unit(node: YamlNode, number: float, accepted: NumberType) -> Code
     if accepted.may_be_far or not size > _LARGEST_PLAUSIBLE.get(accepted.dimensions, math.inf):
         return None
     if accepted.dimensions != _ANGLE:
-        return LONG_LENGTH
+        return LONG_LENGTH if size < _UNLIMITED_LENGTH and size not in _NO_LIMIT else None
     if node.span.file.is_xml:
         return WIDE_ANGLE if _WIDEST_URDF_ANGLE < size < _UNLIMITED_URDF_ANGLE else None
     return WIDE_ANGLE if isinstance(node, YamlScalar) and isinstance(node.value, int | float) else None

@@ -58,8 +58,8 @@ class FileScope:
         return from_base(path, self.mesh_bases.get(path_base(node).file, ""))
 
 
-def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
-    """Lower the one geometry of a visual or a collision; None for none, which is reported."""
+def lower_geometry(shape: Fields, scope: FileScope, extent: NumberType = EXTENT) -> Geometry | None:
+    """Lower the one geometry of a visual or a collision, None for none, which is reported."""
     keys = [key for key in (*_PRIMITIVES, "mesh") if shape.get(key) is not None]
     if not keys:
         shape.report_incomplete(NO_GEOMETRY, owner=shape.title)
@@ -74,18 +74,18 @@ def lower_geometry(shape: Fields, scope: FileScope) -> Geometry | None:
     if key == "mesh":
         return _mesh(shape, node, scope)
     if key in _SHORT_FORMS and not isinstance(node, YamlMap):
-        return _SHORT_FORMS[key](shape, node)
+        return _SHORT_FORMS[key](shape, node, extent)
     body = shape.map(key)
     return lower_element(_PRIMITIVES[key], body) if body else None
 
 
-def _box(shape: Fields, node: YamlNode) -> Geometry | None:
-    size = shape.vector3_at(node, "box", EXTENT)
+def _box(shape: Fields, node: YamlNode, extent: NumberType) -> Geometry | None:
+    size = shape.vector3_at(node, "box", extent)
     return None if size is None else Box(size).with_source(SourceRef(node, None, shape.trail))
 
 
-def _sphere(shape: Fields, node: YamlNode) -> Geometry | None:
-    radius = shape.number_at(node, "sphere", EXTENT)
+def _sphere(shape: Fields, node: YamlNode, extent: NumberType) -> Geometry | None:
+    radius = shape.number_at(node, "sphere", extent)
     return None if radius is None else Sphere(radius).with_source(SourceRef(node, None, shape.trail))
 
 

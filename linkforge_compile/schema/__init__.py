@@ -1,4 +1,4 @@
-"""Is the tree the language? The schemas, and the judgement by them in human sentences; `bundle` is for editors."""
+"""Is the tree the language? The schemas, and the judgement by them in human sentences."""
 
 from linkforge_compile.schema.validator import validate, validate_computed
 

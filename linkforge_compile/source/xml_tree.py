@@ -76,6 +76,12 @@ class XmlElement(NamedTuple):
             attributes[name] = XmlAttribute(name, value, (self.file, begin, end))
         return attributes
 
+    def with_content(
+        self, values: Mapping[str, str], content: tuple[XmlContent, ...], children: tuple[XmlElement, ...], text: str
+    ) -> XmlElement:
+        """Return the element at its place with other values of its attributes and another content."""
+        return self._replace(values=values, content=content, children=children, text=text)
+
     @property
     def bounds(self) -> Bounds:
         """The place of `<tag`."""

@@ -24,6 +24,7 @@ from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of, make_entries
+from linkforge_compile.syntax.flow_lines import find_outdented_line
 from linkforge_compile.syntax.nodes import (
     MAX_DEPTH,
     ScalarValue,
@@ -151,6 +152,7 @@ class _Reader:
         self._anchors: dict[str, _Anchor | None] = {}  # None while the anchored node is being read
         self._deepest = 0
         self._end = 0  # the index after the last scalar, alias or bracket
+        self._indent = -1  # the column of the block list or map that is being read
 
     def read_document(self) -> YamlNode:
         """Return the top node; null for an empty document."""
@@ -259,21 +261,27 @@ class _Reader:
         return YamlScalar(text, value, self._file, begin, end)
 
     def _list(self, start: SequenceStartEvent, depth: int) -> YamlNode:
-        flow = self._open(start, depth)
+        flow, outer = self._open(start, depth), self._indent
+        if start.start_mark and not flow and start.anchor is None:
+            self._indent = start.start_mark.column
         items: list[YamlNode] = []
         while not isinstance(event := self._next(), SequenceEndEvent):
             items.append(self._node(event, depth + 1, flow))
+        self._indent = outer
         begin, end = self._close(start, event, flow)
         if flow and _is_cut(items):
             return YamlFault(self._file.between(begin, end))
         return YamlList(tuple(items), self._file, begin, end)
 
     def _map(self, start: MappingStartEvent, depth: int) -> YamlNode:
-        flow = self._open(start, depth)
+        flow, outer = self._open(start, depth), self._indent
         pairs: list[tuple[YamlNode, YamlNode]] = []
         while not isinstance(event := self._next(), MappingEndEvent):
+            if event and event.start_mark and not flow:
+                self._indent = event.start_mark.column
             key = self._key(event, depth + 1, flow)
             pairs.append((key, self._node(self._next(), depth + 1, flow)))
+        self._indent = outer
         begin, end = self._close(start, event, flow)
         if flow and any(map(_is_cut, pairs)):
             return YamlFault(self._file.between(begin, end))
@@ -301,4 +309,12 @@ class _Reader:
         if flow:
             self.brackets.pop()
             self._end = closing.index
+            if closing.line > begin.line and not self.brackets and self._tags is None:
+                self._check_lines(begin.index, closing.index)
         return begin.index, self._end
+
+    def _check_lines(self, begin: int, end: int) -> None:
+        """Warn about a line of the outermost flow list or map that other parsers do not take for a part of it."""
+        if line := find_outdented_line(self._marks.text, begin, end, self._indent):
+            spaces = "1 space" if self._indent == 0 else f"{self._indent + 1} spaces"
+            self._sink.report(codes.OUTDENTED_LINE.at(self._file.between(*line), spaces=spaces))

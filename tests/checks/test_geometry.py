@@ -15,11 +15,12 @@ def of(*links: Link) -> Robot:
     return Robot("r", links=links, joints=[fixed(f"to_{one.name}", first.name, one.name) for one in others])
 
 
-def test_all_links_that_nothing_touches_are_reported_together():
+def test_links_that_nothing_touches_are_reported():
     whole = link("base", seen=True, touched=True)
     subject = of(whole, *(link(name, seen=True, touched=False) for name in ("a", "b")))
     assert messages_of(subject) == [
-        "LF6050 links 'a' and 'b' have a visual and no collision, so everything passes through"
+        "LF6050 link 'a' has a visual and no collision, so everything passes through",
+        "LF6050 link 'b' has a visual and no collision, so everything passes through",
     ]
     assert messages_of(subject, UnresolvedNames(frozenset({"c"}))) == []
 

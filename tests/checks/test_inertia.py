@@ -9,7 +9,8 @@ from linkforge_compile.checks import check
 from linkforge_compile.checks.inertia import principal_moments
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
 from linkforge_compile.diagnostics import Severity, UnresolvedNames
-from tests.checks.robots import body, messages_of
+from linkforge_compile.formats import render_urdf
+from tests.checks.robots import body, messages_of, turning
 
 FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)
 TURNED_ROD = InertiaTensor(1.0, 1.0, 1.9, ixy=0.95)
@@ -43,6 +44,23 @@ def test_what_no_body_can_have_is_a_warning(inertia: InertiaTensor, message: str
     subject = Robot("r", links=[body("a", 2.0, inertia=inertia)])
     assert messages_of(subject) == [message]
     assert next(check(subject, UnresolvedNames())).severity is Severity.WARNING
+
+
+@pytest.mark.parametrize(
+    ("largest", "code"), [(2.0, []), (2.0000001, []), (2.001, ["LF6007"]), (2.02, ["LF6007"]), (2.03, ["LF6003"])]
+)
+def test_a_moment_just_above_the_sum_of_the_others_is_noted(largest: float, code: list[str]):
+    inertia = InertiaTensor(1, 1, largest)
+    assert [one[:6] for one in messages_of(Robot("r", links=[body("a", inertia=inertia)]))] == code
+
+
+def test_mujoco_refuses_what_is_noted_but_for_the_option_that_the_note_names():
+    arm = Link("arm", Inertial(1.0, inertia=InertiaTensor(1, 1, 2.001)))
+    text = render_urdf(Robot("r", links=[Link("base"), arm], joints=[turning("j", "base", "arm")]))
+    load = pytest.importorskip("mujoco").MjModel.from_xml_string
+    with pytest.raises(ValueError, match="balanceinertia"):
+        load(text)
+    assert load(text.replace("</robot>", '<mujoco><compiler balanceinertia="true"/></mujoco></robot>')).njnt == 1
 
 
 def test_a_frame_without_mass_may_have_any_tensor():

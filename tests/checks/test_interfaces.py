@@ -93,7 +93,10 @@ def test_a_mimic_of_the_hardware_wants_one_of_the_joint():
 
 def test_hardware_without_interfaces_is_noted():
     empty = Ros2Control("empty", hardware_plugin="mock")
-    idle = system(sensors=(Ros2ControlSensor("imu"),), gpios=(Ros2ControlGpio("pins"),))
+    idle = system(
+        sensors=(Ros2ControlSensor("imu"),),
+        gpios=(Ros2ControlGpio("pins", parameters={"bank": "2"}), Ros2ControlGpio("gpio")),
+    )
     subject = robot("base tool", fixed("flange", "base", "tool"), ros2_controls=[empty, idle])
     assert messages_of(subject) == [
         "LF6112 ros2_control 'empty': ros2_control 'empty' has no interface, so no controller can use it",

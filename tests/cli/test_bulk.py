@@ -209,6 +209,16 @@ def test_progress_is_printed_when_it_takes_long(robots: Path, monkeypatch: pytes
     assert linkforge(*words, "--depfile", "d", cwd=robots).stderr == ""
 
 
+def test_a_folder_with_one_spec_is_compiled_into_a_folder(robots: Path):
+    (robots / "one").mkdir()
+    (robots / "one" / "hand.robot.yaml").write_text(HAND)
+    run = linkforge("compile", "one/", cwd=robots)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert "-o takes one folder for the outputs of several specs, found none" in run.stderr
+    run = linkforge("compile", "one/", "-o", "build/", cwd=robots)
+    assert (run.returncode, run.stderr) == (0, "wrote build/hand.urdf\n")
+
+
 def test_a_folder_without_specs_is_an_error(robots: Path):
     (robots / "empty").mkdir()
     run = linkforge("compile", "empty/", "-o", "build/", cwd=robots)

@@ -81,9 +81,9 @@ def test_a_spec_whose_urdf_does_not_read_back_is_compared_as_written(tmp_path: P
     spec = "linkforge: 1\nname: r\nlinks: {a: }\nsensors: {imu: {type: imu, link: a}}\n"
     (tmp_path / "r.robot.yaml").write_text(spec)
     linkforge("compile", "r.robot.yaml", "-o", "r.urdf", cwd=tmp_path)
-    declared = 'extra_attributes: {"xmlns:xacro": "http://x"}\nextra: ["<xacro:foo/>"]\n'
+    declared = 'extra_attributes: {"xmlns:xacro": "http://x"}\nextra: <xacro:macro name="foo"/>\n'
     (tmp_path / "r.robot.yaml").write_text(spec + declared)
-    reason = "<xacro:foo> is xacro syntax, which is expanded only in a file named 'NAME.urdf.xacro'"
+    reason = "<xacro:macro> is xacro syntax, which is expanded only in a file named 'NAME.urdf.xacro'"
     run = linkforge("diff", "r.urdf", "r.robot.yaml", cwd=tmp_path)
     line = f"r.robot.yaml is compared as written, since its URDF does not read back: {reason}"
     assert (run.returncode, line in run.stdout.splitlines()) == (1, True)

@@ -119,7 +119,7 @@ def test_nothing_is_written_through_a_link_that_leads_out(link: str, tmp_path: P
     (repository / ".git").mkdir(parents=True)
     (repository / link).symlink_to(tmp_path / "nowhere")
     run = linkforge("init", "arm", "--dir", ".", cwd=repository)
-    assert (run.returncode, "is behind a link that leads out of its folder" in run.stderr) == (2, True)
+    assert (run.returncode, "is reached by a link that leads out of its folder" in run.stderr) == (2, True)
     assert {path.name for path in (*tmp_path.iterdir(), *repository.iterdir())} == {"repository", ".git", link}
 
 

@@ -35,5 +35,5 @@ def test_the_schema_of_a_workspace_is_not_written_through_a_link_that_leads_out(
     (repository / ".linkforge" / "robot.schema.json").symlink_to(other)
     run = linkforge("schema", "--workspace", cwd=repository)
     assert (run.returncode, other.read_text()) == (2, "mine")
-    assert "'.linkforge/robot.schema.json' is behind a link that leads out of its folder" in run.stderr
+    assert "'.linkforge/robot.schema.json' is reached by a link that leads out of its folder" in run.stderr
     assert linkforge("schema", "--workspace", "-o", "here.json", cwd=repository).returncode == 0

@@ -12,7 +12,7 @@ from typing import NoReturn
 
 import pytest
 
-from linkforge_compile.schema.bundle import bundle_text
+from linkforge_compile.editor.bundle import bundle_text
 from tests.editor.language_server import LanguageServer
 
 HERE = Path(__file__).parent

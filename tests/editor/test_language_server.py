@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from linkforge_compile import compile_text
 from tests.conftest import ROOT
 from tests.editor.language_server import Fault, LanguageServer
 
@@ -17,6 +18,9 @@ EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
 GEOMETRY = ["box", "capsule", "cylinder", "mesh", "sphere"]
 JOINT_TYPES = ["continuous", "fixed", "floating", "planar", "prismatic", "revolute"]
 JOINT_KEYS = ["axis", "calibration", "child", "dynamics", "gazebo", "limits", "mimic", "origin", "parent"]
+TYPED_JOINT_KEYS = sorted([*JOINT_KEYS, "safety_controller"])
+SENSOR_KEYS = ["always_on", "frame", "link", "origin", "plugin", "topic", "update_rate", "visualize"]
+SENSOR_BLOCKS = ["camera", "contact", "force_torque", "gps", "imu", "lidar"]
 LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "shape_order", "visual"]
 SENSOR_KINDS = ["camera", "contact", "depth_camera", "force_torque", "gps", "gpu_lidar", "imu", "lidar", "ray"]
 ROBOT_KEYS = [
@@ -67,6 +71,29 @@ OFFERED = {
     "in a joint": (
         "joints:\n  elbow:\n    |",
         sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller", "type"]),
+    ),
+    "in a fixed joint": (
+        "joints:\n  weld:\n    type: fixed\n    |",
+        [key for key in TYPED_JOINT_KEYS if key not in {"axis", "limits"}],
+    ),
+    "in a floating joint": (
+        "joints:\n  weld: {type: floating, li|}",
+        [key for key in TYPED_JOINT_KEYS if key != "axis"],
+    ),
+    "in a joint whose type is computed": (
+        "joints:\n  weld:\n    type: $(kind)\n    |",
+        TYPED_JOINT_KEYS,
+    ),
+    "in a module's fixed joint": (
+        "modules: {arm: {use: a.robot.yaml, joint: {type: fixed, na|}}}",
+        ["calibration", "dynamics", "gazebo", "mimic", "name", "safety_controller"],
+    ),
+    "in an imu": ("sensors:\n  front:\n    type: imu\n    |", sorted([*SENSOR_KEYS, "imu"])),
+    "in a depth camera": ("sensors:\n  front: {type: depth_camera, ca|}", sorted([*SENSOR_KEYS, "camera"])),
+    "in a sensor": (
+        "sensors:\n  front:\n    |",
+        # Two of them are also snippets.
+        sorted([*SENSOR_KEYS, "camera", "lidar", *SENSOR_BLOCKS, "type"]),
     ),
     "a joint's type": ("joints:\n  elbow:\n    type: |", JOINT_TYPES),
     "half a joint's type in flow style": ("joints:\n  elbow: {type: rev|}", JOINT_TYPES),
@@ -155,8 +182,8 @@ OFFERED = {
         ["frame", "joint", "origin"],
     ),
     "half a key behind another in flow style": (
-        "joints:\n  elbow: {type: fixed, pa|}",
-        sorted([*JOINT_KEYS, "fixed joint", "revolute joint", "safety_controller"]),
+        "joints:\n  elbow: {type: revolute, pa|}",
+        TYPED_JOINT_KEYS,
     ),
     "half a shape of a list in flow style": (
         "links: {base: {collision: [{cy|}]}}",
@@ -354,6 +381,35 @@ FAULTS = {
 @pytest.mark.parametrize(("document", "faults"), FAULTS.values(), ids=FAULTS)
 def test_what_is_underlined(server: LanguageServer, document: str, faults: list[tuple[str, str]]):
     assert server.faults(HEAD + document) == [Fault(*fault) for fault in faults]
+
+
+CONTINUED = {
+    # A list or map in brackets on several lines, and whether editors take it.
+    "at column 0": ("links: {base: ,\ntip: }\n", False),
+    "by a tab": ("links: {base: ,\n\ttip: }\n", False),
+    "by a space": ("links: {base: ,\n tip: }\n", True),
+    "by a space and a tab": ("links: {base: ,\n \ttip: }\n", True),
+    "at the column of its key": ("links:\n  base: {visual: {box: [1,\n  1, 1]}}\n", False),
+    "beyond its key": ("links:\n  base: {visual: {box: [1,\n   1, 1]}}\n", True),
+    "below the key": ("links:\n  base:\n    {visual:\n   {box: [1, 1, 1]}}\n", True),
+    "in a list at the column of the dash": ("include:\n- a.yaml\ndata: {}\nlinks: {base: {collision: [\n]}}\n", False),
+    "in an item, at the column of its key": ("gazebo:\n  - plugins: {a: {filename: b,\n    parameters: }}\n", False),
+    "in an item, beyond its key": ("gazebo:\n  - plugins: {a: {filename: b,\n     parameters: }}\n", True),
+    "in an item in brackets": ("gazebo:\n  - {material: a,\n  mu1: 1}\n", False),
+    "in an item in brackets, beyond the dash": ("gazebo:\n  - {material: a,\n   mu1: 1}\n", True),
+    "closed at the column of its key": ("links: {\n  base: {visual: {sphere: 1}},\n}\n", True),
+    "closed at the column of its key by two": ("links: {base: {\n}}\n", False),
+    "closed by a tab": ("links: {\n  base: ,\n\t}\n", True),
+    "a comment and an empty line": ("links: {\n# base\n\n  base: }\n", True),
+    "in quotes": ("description: 'x'\nlinks: {base: {collision: [], extra: '<a>\n</a>'}}\n", False),
+}
+
+
+@pytest.mark.parametrize(("document", "is_taken"), CONTINUED.values(), ids=CONTINUED)
+def test_check_warns_of_lines_that_editors_refuse(server: LanguageServer, document: str, is_taken: bool):
+    spec = f"linkforge: 1\nname: arm\n{document}"
+    warned = [one for one in compile_text(spec).diagnostics if one.code.id == "LF1077"]
+    assert (server.faults(MODELINE + spec) == [], warned == []) == (is_taken, is_taken)
 
 
 SPECS = [

@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkforge_compile.editor import Vocabulary, workspace_text
+from linkforge_compile.editor.bundle import bundle_text
+from linkforge_compile.editor.vocabulary import UsedFile
 from linkforge_compile.expand.listing import ListedParameter
-from linkforge_compile.schema.bundle import bundle_text
 from linkforge_compile.schema.registry import IDENTIFIER, linked_schema_text
 from tests.cli.in_process import linkforge
 
@@ -43,13 +44,17 @@ def named(keys: st.SearchStrategy[str]) -> st.SearchStrategy[dict[str, tuple[str
     return st.dictionaries(keys, st.lists(NAMES, max_size=2, unique=True).map(tuple), max_size=2)
 
 
+SECTIONS = named(st.sampled_from(["links", "joints", "materials", "modules"]))
+SEMANTIC = named(st.sampled_from(["groups", "end_effectors"]))
+ENTRIES = st.builds(lambda own, semantic: {**own, "semantic": semantic}, SECTIONS, SEMANTIC)
+
 VOCABULARIES = st.builds(
     Vocabulary,
     files=st.lists(FILES, min_size=1, max_size=3, unique=True).map(tuple),
     names=named(st.sampled_from(["link", "joint", "material", "group"])),
     parameters=PARAMETERS,
-    arguments=st.dictionaries(FILES, PARAMETERS, max_size=2),
-    entries=named(st.sampled_from(["links", "joints", "materials", "modules"])),
+    used=st.dictionaries(FILES, st.builds(UsedFile, PARAMETERS, ENTRIES), max_size=2),
+    entries=ENTRIES,
 )
 
 

@@ -70,10 +70,11 @@ frames:
   marker: {parent: base}
 """
 
+MODELINE = "# yaml-language-server: $schema=../.linkforge/robot.schema.json\n"
 FILES = {
     "parts/arm.robot.yaml": ARM,
     "cells/cell.robot.yaml": CELL,
-    "cells/palette.yaml": PALETTE,
+    "cells/palette.yaml": MODELINE + PALETTE,
     "faulty.robot.yaml": FAULTY,
 }
 
@@ -99,7 +100,6 @@ def shop(folder: Path) -> str:
     return root.name
 
 
-MODELINE = "# yaml-language-server: $schema=../.linkforge/robot.schema.json\n"
 HEAD = f"{MODELINE}linkforge: 1\nname: cell\n"
 CELL_LINKS = ["left_base", "left_tool0", "table"]
 ARGUMENTS = ["fast", "hand", "reach", "serial"]
@@ -148,6 +148,74 @@ EVERYWHERE = {"for", "when", "extra", "extra_attributes", "extra_inside"}
 def test_what_is_offered(server: LanguageServer, shop: str, document: str, labels: list[str]):
     offered = server.completions(HEAD + document, f"{shop}/cells/cell.robot.yaml")
     assert [found.label for found in offered if found.label not in EVERYWHERE] == labels
+
+
+VENDOR = {
+    "arm.urdf": """\
+<robot name="arm">
+  <link name="base"/>
+  <link name="flange"/>
+  <joint name="turn" type="continuous">
+    <parent link="base"/>
+    <child link="flange"/>
+    <axis xyz="0 0 1"/>
+  </joint>
+</robot>
+""",
+    "arm.srdf": '<robot name="arm"><group name="all"><joint name="turn"/></group></robot>',
+    "hand.urdf.xacro": """\
+<robot name="hand" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="width" default="0.1"/>
+  <xacro:arg name="side" default="left"/>
+  <link name="$(arg side)_palm"/>
+</robot>
+""",
+    "cell.robot.yaml": """\
+linkforge: 1
+name: cell
+links: {table: }
+modules:
+  arm: {use: arm.urdf, srdf: arm.srdf, parent: table}
+  hand: {use: hand.urdf.xacro, parent: table, with: {side: left}}
+  tool: {use: tool.robot.yaml, parent: table}
+""",
+    "tool.robot.yaml": ARM.replace("  serial: {type: string}\n", ""),
+}
+OF_VENDORS = {
+    "what an override reaches in a URDF": ("use: arm.urdf, override: {links: {fl|}}", ["base", "flange"]),
+    "a section of that": (
+        "use: arm.urdf, override: {jo|}",
+        [
+            *("gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic", "sensors"),
+            "transmissions",
+        ],
+    ),
+    "the groups of its SRDF": ("use: arm.urdf, override: {semantic: {groups: {al|}}}", ["all"]),
+    "the groups of a spec": ("use: tool.robot.yaml, override: {semantic: {groups: {ar|}}}", ["arm"]),
+    "what an override reaches in a xacro": ("use: hand.urdf.xacro, override: {links: {pa|}}", ["left_palm"]),
+    "the arguments of a xacro": ("use: hand.urdf.xacro, with: {wi|}", ["side", "width"]),
+}
+
+
+@pytest.fixture(scope="session")
+def vendors(folder: Path) -> str:
+    """The folder of a workspace with a vendor's files, as its documents are named to the server."""
+    root = written(folder / "vendors", VENDOR)
+    assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote .linkforge/robot.schema.json\n"
+    return root.name
+
+
+@pytest.mark.parametrize(("entry", "labels"), OF_VENDORS.values(), ids=OF_VENDORS)
+def test_what_is_offered_for_a_vendors_file(server: LanguageServer, vendors: str, entry: str, labels: list[str]):
+    document = f"{HEAD.replace('../', '')}modules: {{a: {{{entry}}}}}"
+    offered = server.completions(document, f"{vendors}/cell.robot.yaml")
+    assert [found.label for found in offered if found.label not in EVERYWHERE] == labels
+
+
+def test_an_argument_of_a_xacro_is_put_in_with_its_default(server: LanguageServer, vendors: str):
+    document = f"{HEAD.replace('../', '')}modules:\n  a:\n    use: hand.urdf.xacro\n    with:\n      |"
+    found = {one.label: one.inserted for one in server.completions(document, f"{vendors}/cell.robot.yaml")}
+    assert found == {"side": "side: ${1:left}", "width": 'width: ${1:"0.1"}'}
 
 
 def test_an_included_file_has_the_names_of_the_robot(server: LanguageServer, shop: str):
@@ -269,6 +337,20 @@ def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
     assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
+
+
+def test_included_files_without_a_schema_are_named(server: LanguageServer, folder: Path):
+    cell = "linkforge: 1\nname: cell\ninclude: [parts/colors.yaml, parts/steel.robot.yaml]\nlinks: {table: }\n"
+    files = {"cell.robot.yaml": cell, "parts/colors.yaml": PALETTE, "parts/steel.robot.yaml": "linkforge: 1\n"}
+    root = written(folder / "included", files)
+    told = linkforge("schema", "--workspace", cwd=root).stderr
+    assert told.splitlines()[0] == (
+        f"'parts/colors.yaml' has no schema in editors; begin it with '{MODELINE.strip()}', or call it NAME.robot.yaml"
+    )
+    (root / "parts/colors.yaml").write_text(f"# Colors of the cell.\n{MODELINE}{PALETTE}")
+    assert linkforge("schema", "--workspace", cwd=root).stderr == ".linkforge/robot.schema.json is up to date\n"
+    offered = server.completions(f"{MODELINE}linkforge: 1\njoints: {{a: {{parent: |}}}}", "included/parts/colors.yaml")
+    assert [found.label for found in offered] == ["table"]
 
 
 def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):

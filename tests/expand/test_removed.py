@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile import compile_file
+from linkforge_compile import Compilation, compile_file
 from tests.expand.assembling import write
 
 ARM = """
@@ -80,3 +80,57 @@ def test_a_joint_deleted_with_its_link_is_reported_with_the_deletion(tmp_path: P
     (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
     (note,) = told.notes
     assert (note.message, note.span and note.span.line) == ("to delete link 'link1' deletes 'j1', the joint to it", 7)
+
+
+VENDOR = """
+    links: {world: , base: , link1: , link2: }
+    joints:
+      fix: {type: fixed, parent: world, child: base, origin: [0, 0, 1]}
+      j1: {type: fixed, parent: base, child: link1}
+      j2: {type: continuous, axis: z, parent: link1, child: link2}
+    semantic: {virtual_joints: {anchor: {type: fixed, parent_frame: map, child_link: base}}}
+"""
+
+
+def vendor_without(folder: Path, override: str, arm: str = VENDOR) -> Compilation:
+    cell = f"""
+        links: {{table: }}
+        modules: {{arm: {{use: arm.robot.yaml, parent: table, prefix: "", override: {override}}}}}
+    """
+    write(folder, {"arm.robot.yaml": arm, "cell.robot.yaml": cell})
+    return compile_file(folder / "cell.robot.yaml")
+
+
+@pytest.mark.parametrize(
+    ("override", "joints"),
+    [
+        ("{links: {world: null}}", ["j1", "j2"]),
+        ("{links: {world: null}, joints: {fix: null}}", ["j1", "j2"]),
+        ("{links: {world: null, base: null}, semantic: {virtual_joints: null}}", ["j2"]),
+    ],
+)
+def test_what_is_above_a_fixed_joint_is_deleted_with_it(tmp_path: Path, override: str, joints: list[str]):
+    robot = vendor_without(tmp_path, override).result()
+    assert [joint.name for joint in robot.joints] == [*joints, "arm_joint"]
+    assert robot.joints["arm_joint"].child == robot.joints[joints[0]].parent
+
+
+@pytest.mark.parametrize(
+    ("override", "joint", "told"),
+    [
+        ("{links: {base: null}}", "", "'base' is deleted by this override, and joint 'j1' below it is not; "),
+        ("{links: {link1: null}}", "", "'link1' is deleted by this override, and joint 'j2' below it is not; "),
+        (
+            "{links: {world: null}}",
+            "j3: {type: fixed, parent: world, child: link3}",
+            "'world' is deleted by this override, and joints 'fix' and 'j3' below it are not; ",
+        ),
+    ],
+)
+def test_joints_below_a_deleted_link_are_named_with_the_override(tmp_path: Path, override: str, joint: str, told: str):
+    arm = f"{VENDOR.replace('link2: }', 'link2: , link3: }')}".replace("    semantic", f"      {joint}\n    semantic")
+    found = vendor_without(tmp_path, override, arm if joint else VENDOR).diagnostics
+    first = told.split("joint")[1].split("'")[1]
+    ways_out = f"write 'joints: {{{first}: null}}' or 'joints: {{{first}: {{parent: …}}}}' as well"
+    assert {one.code.id for one in found} >= {"LF4102"}
+    assert f"{told}{ways_out}" in [note.message for one in found for note in one.notes]

@@ -253,7 +253,8 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_reported_once(tmp_p
 def test_an_override_replaces_a_list_and_a_text_with_several_names_as_a_whole(tmp_path):
     plugin = '<plugin name="p" filename="p.so"><on>palm</on><on>table</on><all>palm, table</all></plugin>'
     gripper = GRIPPER.replace("</robot>", f"<gazebo>{plugin}</gazebo></robot>")
-    said = " ".join(told(compiled(tmp_path, USED, gripper)))
+    [one] = compiled(tmp_path, USED, gripper).diagnostics
+    said = " ".join((one.message, *(note.message for note in one.notes)))
     assert "{on: ...}}}}}' where this file is used, '...' being the whole list with that name in it" in said
     assert "{all: ...}}}}}' where this file is used, '...' being the whole text with that name in it" in said
 

@@ -4,7 +4,7 @@ import jsonschema_rs
 import pytest
 
 from linkforge_compile.core.fields import Number, Vector
-from linkforge_compile.schema.bundle import bundle
+from linkforge_compile.editor.bundle import bundle
 from linkforge_compile.units import UNITS, Motion
 from tests.core.test_schemas import CLASSES, specs_at
 

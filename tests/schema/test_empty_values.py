@@ -10,7 +10,7 @@ import pytest
 
 from linkforge_compile import Severity, compile_text
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.schema.bundle import bundle
+from linkforge_compile.editor.bundle import bundle
 from linkforge_compile.schema.registry import plain
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import read

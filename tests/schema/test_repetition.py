@@ -3,7 +3,7 @@
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.schema.bundle import bundle
+from linkforge_compile.editor.bundle import bundle
 from linkforge_compile.schema.json_schema import PLAIN, WORDS
 from linkforge_compile.schema.registry import definitions, load_files
 

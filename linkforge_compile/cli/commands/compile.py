@@ -120,7 +120,7 @@ def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argp
     """Return what to build of each spec; UsageError if two would have the same output."""
     if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
         found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
-        several = "specs" if len(specs) > 1 else "variants"
+        several = "variants" if len(specs) == 1 and len(arguments.variants) > 1 else "specs"
         raise UsageError(f"-o takes one folder for the outputs of several {several}, found {found}")
     variants = arguments.variants or [None]
     requests = [_parse_request(spec, variant, assignments, arguments) for spec in specs for variant in variants]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import posixpath
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import refuse_links_out, write_json
-    from linkforge_compile.schema.bundle import bundle_text
+    from linkforge_compile.editor.bundle import bundle_text
 
     if arguments.workspace is None:
         write_json(bundle_text(), arguments.output, arguments)
@@ -80,7 +81,19 @@ def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bo
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
             print_line(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")
+    _warn_unnamed({file for vocabulary in vocabularies for file in vocabulary.files[1:]}, root)
     return workspace_text(vocabularies)
+
+
+def _warn_unnamed(included: Iterable[str], root: Path) -> None:
+    """Warn about included files of which no editor knows that the schema is theirs."""
+    from linkforge_compile.editor.folders import SCHEMA, has_editor_schema
+
+    for file in sorted(included):
+        if not file.startswith("../") and not has_editor_schema(root / file):
+            schema = posixpath.relpath(SCHEMA.as_posix(), posixpath.dirname(file) or ".")
+            remedy = f"begin it with '# yaml-language-server: $schema={schema}', or call it NAME.robot.yaml"
+            print_line(f"'{root / file}' has no schema in editors; {remedy}")
 
 
 def _workspaces(here: Path, packages: Mapping[str, Path]) -> tuple[Path, ...]:

@@ -65,6 +65,7 @@ _DEGREES_OF_FREEDOM = {
 }
 _MOVE_ALONG_AN_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC, JointType.PLANAR)
 HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
+HAVE_NO_LIMITS = (JointType.FIXED,)
 NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 
@@ -250,7 +251,7 @@ class Joint(Element):
             raise self._invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
         if self.type in NEED_LIMITS and self.limits is None:
             raise self._invalid(f"limits required for joint type '{kind}'", "JointLimits", kind, "limits")
-        if self.type == JointType.FIXED and self.limits is not None:
+        if self.type in HAVE_NO_LIMITS and self.limits is not None:
             raise self._invalid(f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits")
 
     def _check_axis(self, axis: Vector3) -> None:

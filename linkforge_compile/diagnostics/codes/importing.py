@@ -82,6 +82,12 @@ SRDF_OF_ANOTHER = Code(
     "'{robot}' has none of the {count} links and joints in this SRDF, such as '{name}', so all of it "
     "is kept as raw XML; give the SRDF of this robot",
 )
+SRDF_OF_MORE = Code(
+    "LF8155",
+    _W,
+    "'{robot}' has no {names}, so what names them in this SRDF is kept as raw XML; read it with the URDF of the "
+    "whole robot, such as an arm with its gripper, or take them out of it",
+)
 MESH_BESIDE_THE_URDF = Code(
     "LF8130",
     _W,

@@ -105,12 +105,28 @@ SEVERAL_ROOTS = Code(
 # LF55xx: how far joints go, and joints that follow others
 MIMIC_CYCLE = Code("LF5501", _E, "joints mimic each other in a cycle: {path}")
 MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
-NO_RANGE = Code("LF5503", _W, "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0")
+NO_RANGE = Code(
+    "LF5503",
+    _W,
+    "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0",
+    named="joint",
+    alike=("missing",),
+)
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
-    "LF5505", _W, "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out"
+    "LF5505",
+    _W,
+    "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out",
+    named="joint",
+    alike=("limits",),
 )
-POWERLESS_JOINT = Code("LF5506", _W, "joint '{joint}' cannot be moved: its limit of {fields} is 0")
+POWERLESS_JOINT = Code(
+    "LF5506",
+    _W,
+    "joint '{joint}' cannot be driven: its limit of {fields} is 0",
+    named="joint",
+    alike=("fields",),
+)
 SOFT_LIMITS_CROSSED = Code(
     "LF5507", _W, "soft limits of joint '{joint}' are reversed, from {lower} to {upper}, so it cannot move"
 )
@@ -173,7 +189,12 @@ TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is set twice; re
 TAG_OF_TWO_BLOCKS = Code(
     "LF5780", _W, "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last"
 )
-UNPREFIXED_NAME = Code("LF5704", _W, "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}")
+UNPREFIXED_NAME = Code(
+    "LF5704",
+    _W,
+    "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}",
+    named="name",
+)
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )

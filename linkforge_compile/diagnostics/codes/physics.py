@@ -7,7 +7,13 @@ _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
 _VALUE = Location.VALUE
 
 # LF60xx: mass and inertia
-ZERO_INERTIA = Code("LF6001", _W, "link '{link}' has a mass of {mass} kg and an inertia of zero", _VALUE)
+ZERO_INERTIA = Code(
+    "LF6001",
+    _W,
+    "link '{link}' has a mass of {mass} kg and an inertia of zero",
+    _VALUE,
+    named="link",
+)
 INDEFINITE_INERTIA = Code(
     "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _VALUE
 )
@@ -16,6 +22,14 @@ IMPOSSIBLE_INERTIA = Code(
     _W,
     "no principal moment of inertia of link '{link}' may be above the sum of the others, found {moments}",
     _VALUE,
+)
+FLATTER_THAN_A_PLATE = Code(
+    "LF6007",
+    _N,
+    "the largest principal moment of inertia of link '{link}' exceeds the sum of the others by {excess} %; "
+    'MuJoCo refuses such a link, unless <compiler balanceinertia="true"/> is set',
+    _VALUE,
+    named="link",
 )
 MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
@@ -94,6 +108,7 @@ BLOCK_OF_MERGED_JOINT = Code(
     "Gazebo merges the links of fixed joint '{joint}' and drops this; set `preserveFixedJoint: true` in it",
     in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; write "
     "<preserveFixedJoint>true</preserveFixedJoint> in it",
+    named="joint",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
@@ -105,8 +120,18 @@ MERGED_LINK_NAMED = Code(
 )
 
 # LF605x: shapes to see and to touch
-UNTOUCHED_VISUALS = Code("LF6050", _N, "{links} a visual and no collision, so everything passes through")
-UNSEEN_COLLISIONS = Code("LF6051", _N, "{links} a collision and no visual, so what others touch is invisible")
+UNTOUCHED_VISUALS = Code(
+    "LF6050",
+    _N,
+    "link '{link}' has a visual and no collision, so everything passes through",
+    named="link",
+)
+UNSEEN_COLLISIONS = Code(
+    "LF6051",
+    _N,
+    "link '{link}' has a collision and no visual, so what others touch is invisible",
+    named="link",
+)
 
 # LF61xx: ros2_control
 COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")

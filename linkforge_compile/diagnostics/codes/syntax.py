@@ -33,6 +33,9 @@ CURLY_QUOTES = Code("LF1056", _W, "the curly quotes of '{text}' are not YAML quo
 MERGE_CONFLICT = Code(
     "LF1055", _E, "unresolved git merge conflict; keep one of its two sides and delete its three marker lines"
 )
+OUTDENTED_LINE = Code(
+    "LF1077", _W, "editors refuse this line of a list or map in brackets; begin it with at least {spaces}"
+)
 BRACKET_TOO_MANY = Code("LF1076", _E, "unmatched '{bracket}': no list or map is open; leave it out")
 
 DUPLICATE_KEY = Code("LF1101", _E, "the key '{key}' is written twice{more}")

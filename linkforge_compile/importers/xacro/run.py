@@ -203,6 +203,13 @@ class _Moved(XmlElement):
         made._span, made._attributes, made._raw = span, attributes, raw
         return made
 
+    def with_content(
+        self, values: Mapping[str, str], content: tuple[XmlContent, ...], children: tuple[XmlElement, ...], text: str
+    ) -> XmlElement:
+        attributes = {name: XmlAttribute(name, values[name], old.bounds) for name, old in self._attributes.items()}
+        changed = self._replace(values=values, content=content, children=children, text=text)
+        return _Moved.to(self._span, attributes, self._raw, changed)
+
     @property
     def bounds(self) -> Bounds:
         return self._span, 0, 0

@@ -10,6 +10,7 @@ import json
 import re
 from collections.abc import Mapping
 
+from linkforge_compile.editor.keys_by_type import KeysByType, keys_by_type
 from linkforge_compile.schema.json_schema import LONG_FORM, Json, Schema, branches, is_list, mapping, reference
 from linkforge_compile.schema.registry import IDENTIFIER, ROOT, definitions, definitions_with_patches
 from linkforge_compile.units import UNITS, pattern_of
@@ -20,6 +21,7 @@ def bundle() -> Schema:
     whole = definitions_with_patches()
     form = _EditorForm(whole)
     parts = {name: form.of(part, is_patch=name not in definitions()) for name, part in whole.items()}
+    parts |= {name: _offered_by_type(parts[name], keys) for name, keys in keys_by_type().items()}
     root = {**parts.pop(ROOT), "type": "object"}
     return {"$schema": "http://json-schema.org/draft-07/schema#", "$id": IDENTIFIER, **root, "definitions": {**parts}}
 
@@ -27,6 +29,28 @@ def bundle() -> Schema:
 def bundle_text() -> str:
     """Return the bundle as JSON, the same bytes in every run."""
     return json.dumps(bundle(), ensure_ascii=False, indent=2) + "\n"
+
+
+def _offered_by_type(schema: Schema, keys: KeysByType) -> Schema:
+    """Return an equivalent schema that does not offer some keys in an object of a type that has no use for them.
+
+    Nor does it offer snippets of whole objects in one that has its type. The server offers a key of any schema that
+    applies, but for those with `doNotSuggest`.
+    """
+    if "anyOf" in schema:
+        parts = [_offered_by_type(part, keys) if "properties" in part else part for part in branches(schema)]
+        return {**schema, "anyOf": [*parts]}
+    properties = {**mapping(schema["properties"])}
+    conditions: list[Json] = []
+    for types, names in keys.items():
+        of_type: Schema = {"properties": {"type": {"enum": [*types]}}, "required": ["type"]}
+        conditions.append({"if": of_type, "else": {"properties": {name: properties[name] for name in names}}})
+    for name in (name for names in keys.values() for name in names):
+        properties[name] = {"doNotSuggest": True, "allOf": [properties[name]]}
+    if "defaultSnippets" in schema:
+        conditions.append(_unless_typed(schema["defaultSnippets"]))
+    kept = {key: part for key, part in schema.items() if key != "defaultSnippets"}
+    return {**kept, "properties": properties, "allOf": conditions}
 
 
 class _EditorForm:
@@ -51,7 +75,7 @@ class _EditorForm:
         if not is_whole and (self._is_section(schema) or not is_needed):
             whole["type"] = [*listed, "null"]
         if isinstance(entry := whole.get("additionalProperties"), dict) and (snippets := _snippets_of_entries(schema)):
-            whole["additionalProperties"] = _with_snippets(snippets, entry)
+            whole["additionalProperties"] = _with_snippets_of_entry(snippets, entry)
         return _with_silent_kinds(whole, ("boolean",) if is_patch else ("boolean", "null"))
 
     def _parts(self, key: str, part: Json, is_needed: bool, is_patch: bool) -> Json:
@@ -147,6 +171,17 @@ def _with_snippets(snippets: Json, schema: Schema) -> Schema:
     own = {key: part for key, part in schema.items() if key != "$ref"}
     referred: Schema = {"allOf": [{"$ref": schema["$ref"]}]} if "$ref" in schema else {}
     return {**own, "defaultSnippets": snippets, **referred}
+
+
+def _with_snippets_of_entry(snippets: list[Json], schema: Schema) -> Schema:
+    """Return the schema of an entry with snippets of it; those that write a `type` are for an entry without one."""
+    if not all("type" in mapping(mapping(snippet)["body"]) for snippet in snippets):
+        return _with_snippets(snippets, schema)
+    return {"allOf": [schema, _unless_typed(snippets)]}
+
+
+def _unless_typed(snippets: Json) -> Schema:
+    return {"if": {"type": "object", "required": ["type"]}, "else": {"defaultSnippets": snippets}}
 
 
 def _snippets_of_entries(schema: Schema) -> list[Json]:

@@ -8,7 +8,7 @@ import sys
 import pytest
 from jsonschema import Draft7Validator
 
-from linkforge_compile.schema.bundle import bundle, bundle_text
+from linkforge_compile.editor.bundle import bundle, bundle_text
 
 SPEC = {
     "linkforge": 1,
@@ -55,7 +55,7 @@ def test_the_bundle_names_its_version_and_the_draft():
 
 def test_the_bundle_is_the_same_bytes_in_every_process():
     write = "sys.stdout.buffer.write(bundle_text().encode())"
-    command = f"import sys; from linkforge_compile.schema.bundle import bundle_text; {write}"
+    command = f"import sys; from linkforge_compile.editor.bundle import bundle_text; {write}"
     for seed in ("1", "2"):
         run = subprocess.run(
             [sys.executable, "-c", command], capture_output=True, check=True, env={"PYTHONHASHSEED": seed}, timeout=60

@@ -1,0 +1,115 @@
+"""What an override deletes: names with the notes that explain them, and what goes with deleted links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics.grouping import join_names
+from linkforge_compile.expand.override import SECTIONS, deletes
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode
+
+_SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
+
+
+def deleted_names(before: YamlMap, after: YamlMap, patch: YamlMap) -> Iterator[tuple[str, Note]]:
+    """Yield each name that a patch has removed, with a note that shows where it is deleted."""
+    yield from _deleted_in(before, after, patch, SECTIONS)
+    semantic, left, semantic_patch = (tree.get("semantic") for tree in (before, after, patch))
+    if isinstance(semantic, YamlMap) and isinstance(semantic_patch, YamlMap):
+        left = left if isinstance(left, YamlMap) else YamlMap({}, after.span)
+        yield from _deleted_in(semantic, left, semantic_patch, _SEMANTIC_SECTIONS)
+
+
+def _deleted_in(
+    before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]
+) -> Iterator[tuple[str, Note]]:
+    deleted = ((section, entry) for section in sections for entry in before.section(section).values())
+    for section, entry in deleted:
+        if entry.name in after.section(section):
+            continue
+        child, parent = _ends_of(entry) if section in ("joints", "mount") else (None, None)
+        if where := _deletion(patch, section, entry.name):
+            way_out = _way_out(entry.name, after) if section == "links" else ""
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override{way_out}", where)
+        elif child and (where := _deletion(patch, "links", child)):
+            yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
+        elif parent and (where := _deletion(patch, "links", parent)):
+            yield entry.name, Note(f"to delete the root '{parent}' deletes '{entry.name}', the joint from it", where)
+        else:
+            yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
+
+
+def _way_out(link: str, after: YamlMap) -> str:
+    """Return what to write for the joints below a deleted link, "" for none."""
+    names = [name for name, joint in after.section("joints").items() if _ends_of(joint)[1] == link]
+    if not names:
+        return ""
+    delete, reattach = (f"joints: {{{names[0]}: {change}}}" for change in ("null", "{parent: …}"))
+    joints = f"joint{'s' if len(names) > 1 else ''} {join_names(names)}"
+    return f", and {joints} below it {'are' if len(names) > 1 else 'is'} not; write '{delete}' or '{reattach}' as well"
+
+
+def _deletion(patch: YamlMap, section: str, name: str) -> Span | None:
+    """Return where a patch deletes an entry or its whole section, None if it does not."""
+    whole = patch.entries.get(section)
+    deletion = whole.value.entries.get(name) if whole and isinstance(whole.value, YamlMap) else whole
+    return deletion.key.span if deletion and deletes(deletion.value) else None
+
+
+def without_links(tree: YamlMap, links: set[str]) -> YamlMap:
+    """Return a tree without what refers to deleted links: joints to them, Gazebo blocks, collision pairs, spheres.
+
+    If they are all that is above a link, its fixed joint goes too, and it is the root.
+    """
+    if not links:
+        return tree
+    gone, joint_to_root = set(links), _joint_to_new_root(tree, links)
+    for name in ("joints", "mount"):
+        joints = tree.get(name)
+        if isinstance(joints, YamlMap):
+            kept = joints.only(lambda joint: _ends_of(joint)[0] not in links).without(joint_to_root)
+            gone |= joints.entries.keys() - kept.entries.keys()
+            tree = tree.with_value(name, kept)
+    gazebo, semantic = tree.get("gazebo"), tree.get("semantic")
+    if isinstance(gazebo, YamlList | YamlMap):
+        blocks = gazebo.items if isinstance(gazebo, YamlList) else (gazebo,)
+        left = (one for one in blocks if not (isinstance(one, YamlMap) and one.text("reference") in gone))
+        tree = tree.with_value("gazebo", YamlList(tuple(left), gazebo.span))
+    if not isinstance(semantic, YamlMap):
+        return tree
+    for name in ("disabled_collisions", "enabled_collisions", "link_sphere_approximations"):
+        part = semantic.get(name)
+        if isinstance(part, YamlMap):
+            # The values of pairs are maps of links; those of spheres have other keys.
+            of_others = part.without(*links)
+            is_pairs = name != "link_sphere_approximations"
+            others = of_others.mapped(lambda one: _without_keys(one.value, links)) if is_pairs else of_others
+            semantic = semantic.with_value(name, others)
+    return tree.with_value("semantic", semantic)
+
+
+def _joint_to_new_root(tree: YamlMap, deleted: set[str]) -> str:
+    """Return the fixed joint that alone joins deleted links to the others, if it leads down from the deleted ones.
+
+    Otherwise "", which is the name of none.
+    """
+    ends = {joint: _ends_of(joint) for key in ("joints", "mount") for joint in tree.section(key).values()}
+    between = [joint for joint, (child, parent) in ends.items() if (child in deleted) != (parent in deleted)]
+    only = between[0] if len(between) == 1 else None
+    is_below = only is not None and ends[only][1] in deleted
+    return only.name if only and is_below and _text_of(only, "type") == "fixed" else ""
+
+
+def _without_keys(node: YamlNode, keys: set[str]) -> YamlNode:
+    return node.without(*keys) if isinstance(node, YamlMap) else node
+
+
+def _ends_of(joint: YamlEntry) -> tuple[str | None, str | None]:
+    """Return the child and the parent of a joint, None for one that is not written."""
+    return _text_of(joint, "child"), _text_of(joint, "parent")
+
+
+def _text_of(entry: YamlEntry, key: str) -> str | None:
+    return entry.value.text(key) if isinstance(entry.value, YamlMap) else None
