@@ -1,8 +1,10 @@
 """`linkforge diff SPEC --git REV` and `--before-package`, with real repositories."""
 
+import hashlib
 import json
 import os
 import subprocess
+import zlib
 from pathlib import Path
 
 import pytest
@@ -46,6 +48,24 @@ class Repository:
     def commit(self) -> None:
         self.git("add", "--all")
         self.git("commit", "-q", "--message", "state")
+
+    def blob(self, text: str) -> str:
+        """Store a text as an object; return its name."""
+        return self._store("blob", text.encode())
+
+    def forge_tree(self, *entries: tuple[str, str, str]) -> str:
+        """Store a tree of entries (mode, name, object) that git itself might refuse to make; return its name."""
+        body = b"".join(f"{mode} {name}\0".encode() + bytes.fromhex(object_) for mode, name, object_ in entries)
+        return self._store("tree", body)
+
+    def _store(self, kind: str, body: bytes) -> str:
+        """Write a loose object, as `git hash-object --literally` does, without its checks."""
+        content = f"{kind} {len(body)}\0".encode() + body
+        name = hashlib.sha1(content, usedforsecurity=False).hexdigest()
+        path = self.folder / ".git" / "objects" / name[:2] / name[2:]
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(zlib.compress(content))
+        return name
 
 
 @pytest.fixture
@@ -161,26 +181,43 @@ def test_a_link_that_leads_out_of_the_revision_is_not_followed(repository: Repos
 
 def test_a_forged_path_is_not_written(repository: Repository):
     blob = repository.git("hash-object", "-w", "data/masses.yaml").strip()
-    entry = f"100644 blob {blob}\t..\n".encode()
-    command = [program("git"), "mktree"]
-    made = subprocess.run(command, cwd=repository.folder, input=entry, capture_output=True, check=False, timeout=60)
-    if made.returncode:
-        # git itself refuses to make such a tree, so its bytes are written as an object.
-        body = b"100644 ..\0" + bytes.fromhex(blob)
-        forged = subprocess.run(
-            [program("git"), "hash-object", "-w", "-t", "tree", "--literally", "--stdin"],
-            cwd=repository.folder,
-            input=body,
-            capture_output=True,
-            check=True,
-            timeout=60,
-        )
-        tree = forged.stdout.decode().strip()
-    else:
-        tree = made.stdout.decode().strip()
+    tree = repository.forge_tree(("100644", "..", blob))
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
     assert run.returncode == 2
     assert "the revision has a file that may not be written, '..'" in run.stderr
+
+
+@pytest.mark.parametrize("inner_mode", ["120000", "100644"])
+def test_nothing_is_written_through_a_link_of_the_revision(repository: Repository, inner_mode: str):
+    victim = repository.folder.parent / "victim"
+    victim.mkdir()
+    inner = repository.forge_tree((inner_mode, "injected", repository.blob("/etc/passwd")))
+    tree = repository.forge_tree(("120000", "d", repository.blob(str(victim))), ("40000", "d", inner))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd'" in run.stderr
+    assert not list(victim.iterdir())
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+@pytest.mark.parametrize("has_files", [True, False])
+def test_a_revision_of_few_objects_and_endless_paths_is_refused(repository: Repository, has_files: bool):
+    tree = repository.forge_tree(*([("100644", "leaf", repository.blob("x"))] if has_files else []))
+    for _ in range(12):
+        tree = repository.forge_tree(*(("40000", str(number), tree) for number in range(10)))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has more than 100,000 files and folders" in run.stderr
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+def test_folders_deeper_than_any_robot_needs_are_refused(repository: Repository):
+    tree = repository.forge_tree(("100644", "leaf", repository.blob("x")))
+    for _ in range(1500):
+        tree = repository.forge_tree(("40000", "d", tree))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd/d/" in run.stderr
 
 
 @pytest.mark.parametrize(
