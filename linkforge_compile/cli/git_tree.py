@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path, PurePosixPath
 from typing import IO, NamedTuple
 
@@ -83,9 +84,14 @@ def _require_file(tree: GitTree, spec: str) -> None:
     path = tree.path(spec)
     if path.is_file():
         return
-    others = [one.relative_to(tree.copy).as_posix() for one in sorted(tree.copy.rglob("*")) if one.name == path.name]
-    moved = f"; there is '{others[0]}'" if others else ""
-    near = moved or did_you_mean(path.name, [other.name for other in path.parent.glob("*")])
+    if path.is_dir():
+        raise UsageError(f"'{spec}' is a folder in revision '{tree.name}'; give a file in it")
+    if path.is_symlink():
+        target = os.readlink(path)  # noqa: PTH115 - as written
+        raise UsageError(f"'{spec}' is a link to '{target}', which revision '{tree.name}' lacks")
+    others = [one for one in sorted(tree.copy.rglob("*")) if one.name == path.name and one.is_file()]
+    moved = f"; there is '{others[0].relative_to(tree.copy).as_posix()}'" if others else ""
+    near = moved or did_you_mean(path.name, [other.name for other in path.parent.glob("*") if other.is_file()])
     raise UsageError(f"'{spec}' is not in revision '{tree.name}'{near}")
 
 
@@ -202,5 +208,17 @@ def _git(folder: Path, *words: str) -> str:
 
 
 def _environment() -> dict[str, str]:
-    """Return the environment, in which a partial clone cannot fetch, by a program that the repository may name."""
-    return {**os.environ, "GIT_ALLOW_PROTOCOL": "none"}
+    """Return the environment, in which a partial clone cannot fetch, by a program that the repository may name.
+
+    A hook of git has variables that name its own repository, instead of the one around the spec.
+    """
+    kept = {name: value for name, value in os.environ.items() if name not in _local_variables()}
+    return {**kept, "GIT_ALLOW_PROTOCOL": "none"}
+
+
+@cache
+def _local_variables() -> frozenset[str]:
+    """Return the names of the variables by which git finds a repository."""
+    command = ("git", "rev-parse", "--local-env-vars")
+    run = subprocess.run(command, capture_output=True, check=False, stdin=subprocess.DEVNULL)
+    return frozenset(os.fsdecode(run.stdout).split())

@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import subprocess
+import sys
 import zlib
 from pathlib import Path
 
@@ -116,6 +117,40 @@ def test_a_spec_that_was_renamed_is_compared_with_the_old_one(repository: Reposi
     (repository.folder / "old").mkdir()
     moved = linkforge("diff", "old/arm.robot.yaml", words[1], "--git", "HEAD~1", cwd=repository.folder)
     assert "is not in revision 'HEAD~1'; there is 'robots/arm.robot.yaml'" in moved.stderr
+
+
+@pytest.mark.parametrize(
+    ("spec", "message"),
+    [
+        ("robots", "'robots' is a folder in revision 'HEAD'; give a file in it"),
+        (".", "'.' is a folder in revision 'HEAD'; give a file in it"),
+        ("link.robot.yaml", "'link.robot.yaml' is a link to 'lib/gone.robot.yaml', which revision 'HEAD' lacks"),
+        ("data/robots", "'data/robots' is not in revision 'HEAD'"),
+        ("robots/arn.robot.yaml", "is not in revision 'HEAD'; did you mean 'arm.robot.yaml'?"),
+    ],
+)
+def test_a_spec_that_the_revision_lacks_is_an_error(repository: Repository, spec: str, message: str):
+    (repository.folder / "link.robot.yaml").symlink_to("lib/gone.robot.yaml")
+    repository.commit()
+    run = linkforge("diff", spec, "--git", "HEAD", cwd=repository.folder)
+    assert run.returncode == 2
+    assert run.stderr.rstrip("\n").endswith(message)
+
+
+def test_a_hook_in_a_linked_worktree_compares_with_its_own_repository(repository: Repository):
+    hook = repository.folder / ".git" / "hooks" / "pre-commit"
+    command = f"'{sys.executable}' -m linkforge_compile diff arm.robot.yaml --git HEAD"
+    hook.write_text(f'#!/bin/sh\nset -e; test -n "$GIT_DIR"; cd robots; {command} > ../../output\n')
+    hook.chmod(0o755)
+    repository.git("worktree", "add", "-q", "../linked")
+    repository.git("-C", "../linked", "commit", "-q", "--allow-empty", "--message", "state")
+    output = repository.folder.parent / "output"
+    assert output.read_text() == "arm.robot.yaml (HEAD) and arm.robot.yaml are the same robot\n"
+
+
+def test_the_repository_is_the_one_around_the_spec(repository: Repository):
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder, GIT_DIR="/nowhere")
+    assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_an_error_in_the_revision_is_reported_at_its_place_there(repository: Repository):
