@@ -16,6 +16,7 @@ from typing import IO, NamedTuple
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.suggest import did_you_mean
+from linkforge_compile.paths import packages_in_environment
 
 _MAX_ENTRIES = 100_000
 _MAX_LISTING_BYTES = 32 * 1024**2
@@ -43,6 +44,19 @@ class GitTree(NamedTuple):
         # The folder may be a link into the repository; a file that is a link is one in the copy too.
         absolute = Path(os.path.realpath(Path(path).parent), Path(path).name)
         return self.copy / absolute.relative_to(self.top) if absolute.is_relative_to(self.top) else Path(path)
+
+    def packages(self) -> dict[str, Path]:
+        """Return the copies of packages that the environment finds in the repository, by name.
+
+        An installation with links (`colcon build --symlink-install`) belongs to the folder of its linked package.xml.
+        """
+        sources = {
+            name: Path(os.path.realpath(folder / "package.xml")).parent
+            for name, folder in packages_in_environment().items()
+        }
+        copies = {name: self.path(folder) for name, folder in sources.items() if folder.is_relative_to(self.top)}
+        # What is built inside of the repository, and not committed, is read as it is now.
+        return {name: copy for name, copy in copies.items() if copy.is_dir()}
 
     def shown(self, path: Path) -> str | None:
         """Return the name of a file in the copy as git shows it, `HEAD~1:robots/arm.robot.yaml`; None for another."""

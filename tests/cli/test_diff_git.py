@@ -318,3 +318,35 @@ def test_a_package_in_the_repository_is_read_as_of_the_revision(repository: Repo
     words = ("diff", "robots/cell.robot.yaml", "--package", "hands=vendor", "--git", "HEAD")
     run = linkforge(*words, cwd=repository.folder)
     assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stderr
+
+
+@pytest.mark.parametrize("variable", ["ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"])
+@pytest.mark.parametrize("is_src_alone", [False, True], ids=["workspace", "src"])
+def test_a_package_of_the_environment_is_read_as_of_the_revision(
+    repository: Repository, variable: str, is_src_alone: bool
+):
+    repository.write("src/hands/package.xml", "<package><name>hands</name></package>\n")
+    repository.write("src/hands/urdf/hand.robot.yaml", HAND)
+    repository.write(
+        "src/app/cell.robot.yaml",
+        "linkforge: 1\nname: cell\nlinks: {tool: }\n"
+        'modules: {hand: {use: "package://hands/urdf/hand.robot.yaml", parent: tool}}\n',
+    )
+    if is_src_alone:
+        (repository.folder / ".git").rename(repository.folder / "src" / ".git")
+        repository.folder = repository.folder / "src"
+    repository.commit()
+    src = repository.folder if is_src_alone else repository.folder / "src"
+    (src / "hands" / "urdf" / "hand.robot.yaml").write_text(HAND.replace("mass: 1", "mass: 2"))
+    value = src if variable == "ROS_PACKAGE_PATH" else install_with_links(src.parent / "install", src / "hands")
+    run = linkforge("diff", "app/cell.robot.yaml", "--git", "HEAD", cwd=src, **{variable: str(value)})
+    assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stdout + run.stderr
+
+
+def install_with_links(prefix: Path, package: Path) -> Path:
+    """Install each file of a package as a link, as `colcon build --symlink-install` does."""
+    for file in [file for file in package.rglob("*") if file.is_file()]:
+        link = prefix / "share" / package.name / file.relative_to(package)
+        link.parent.mkdir(parents=True, exist_ok=True)
+        link.symlink_to(file)
+    return prefix
