@@ -50,6 +50,11 @@ class Repository:
         self.git("add", "--all")
         self.git("commit", "-q", "--message", "state")
 
+    def state(self) -> dict[str, bytes]:
+        """Return the content of each file by its path, git's own ones included."""
+        files = (path for path in self.folder.rglob("*") if path.is_file())
+        return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in files}
+
     def blob(self, text: str) -> str:
         """Store a text as an object; return its name."""
         return self._store("blob", text.encode())
@@ -88,13 +93,14 @@ def test_a_spec_and_all_that_it_includes_are_read_as_of_the_revision(repository:
     repository.write("robots/hand.robot.yaml", HAND.replace("mass: 1", "mass: 2"))
     repository.commit()
     repository.write("data/masses.yaml", "reach: 2 m\n")
+    before = repository.state()
     for cwd, spec in ((repository.folder, arm), (repository.folder / "robots", "arm.robot.yaml")):
         run = linkforge("diff", spec, "--git", "HEAD~1", cwd=cwd)
         assert run.returncode == 1, run.stderr
         assert run.stdout.startswith(f"{spec} (HEAD~1) → {spec}: 2 changed\n")
         assert "inertial/mass: 1 kg → 2 kg (+100 %)" in run.stdout
         assert "origin: moved by 1000 mm (z +1000 mm)" in run.stdout
-    assert "reach" not in repository.git("status", "--porcelain", "--", "robots")
+    assert repository.state() == before
     assert not list((repository.folder.parent / "temporary").iterdir())
 
 
@@ -181,6 +187,9 @@ def test_nothing_that_a_repository_configures_is_run(repository: Repository):
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
     assert (run.returncode, run.stderr) == (0, "")
     assert not mark.exists()
+    # What is configured runs in the commands that were not used.
+    repository.git("status")
+    assert mark.exists()
 
 
 def test_a_partial_clone_fetches_nothing(repository: Repository):
