@@ -13,7 +13,8 @@ from linkforge_compile.core.models.geometry import Capsule, Color, Material, Mes
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import OTHER_QUATERNION
-from linkforge_compile.formats import FORMATS, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import FORMATS, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from tests.conftest import ROOT
 
 ARM = Robot("arm", links=[Link("base", collisions=[Collision(Sphere(0.5))]), Link("tool0")])
