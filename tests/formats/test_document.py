@@ -116,7 +116,7 @@ def test_the_order_is_the_authors():
 
 def test_bytes_are_the_same_in_every_process():
     script = (
-        "from tests.formats.everything import everything; from linkforge_compile.formats import *; "
+        "from tests.formats.everything import everything; from linkforge_compile.formats.render import *; "
         "robot = everything(); print(render_urdf(robot) + render_srdf(robot))"
     )
     outputs = {
