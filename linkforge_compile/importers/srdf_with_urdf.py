@@ -55,7 +55,7 @@ def with_srdf(
     document = rename_references(document, SemanticNames.of(urdf.tree).all_names)
     refused: dict[XmlElement, CannotRepresentError] = {}
     entries = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
-    elements = 1 + entries + sum(1 for _ in _descendants(document.root))
+    elements = entries + sum(1 for _ in document.root.walk())
     for _ in range(max(2, min(_MAX_ROUNDS, _MAX_READ // elements))):
         round_sink = Diagnostics()
         whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
@@ -94,7 +94,7 @@ def _find_absent_parts(document: XmlDocument, robot: YamlMap) -> list[XmlAttribu
 def _spans_of_absent_groups(document: XmlDocument, robot: YamlMap) -> Iterator[Span]:
     """Yield the elements and attributes that name planning groups which are not in the spec."""
     groups = _names_in(robot, "groups")
-    for element in _descendants(document.root):
+    for element in document.root.walk():
         for name, attribute in element.attributes.items():
             if (name in _GROUP_REFERENCES or (name == "name" and element.tag == "group")) and (
                 attribute.value not in groups
@@ -149,7 +149,7 @@ def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Xml
     if not faults:
         return {}
     owners = defaultdict[Span, list[XmlElement]](list)
-    for element in _descendants(document.root):
+    for element in document.root.walk():
         for span in {*_spans(element)}:
             owners[span].append(element)
     refused: dict[XmlElement, CannotRepresentError] = {}
@@ -158,12 +158,6 @@ def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Xml
             for owner in owners.get(fault.span, ()):
                 refused.setdefault(owner, CannotRepresentError(fault.message, fault.span))
     return refused
-
-
-def _descendants(element: XmlElement) -> Iterator[XmlElement]:
-    for child in element.children:
-        yield child
-        yield from _descendants(child)
 
 
 def _spans(element: XmlElement) -> Iterator[Span]:
