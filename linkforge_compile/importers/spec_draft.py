@@ -68,7 +68,7 @@ class CannotRepresentError(Exception):
 class SpecDraft:
     """Builds the nodes of one spec.
 
-    `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
+    `refused` has elements that the language refuses, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
     error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
     urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has;
@@ -80,7 +80,7 @@ class SpecDraft:
 
     def __init__(
         self,
-        refused: Mapping[Span, CannotRepresentError] = MappingProxyType({}),
+        refused: Mapping[XmlElement, CannotRepresentError] = MappingProxyType({}),
         *,
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,
