@@ -10,12 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import (
-    ENDS_IN_A_BLANK,
-    KEPT_RAW,
-    NEGATIVE_LIMIT,
-    PATH_OF_THIS_MACHINE,
-)
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, PATH_OF_THIS_MACHINE
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
@@ -53,7 +48,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, NEGATIVE_LIMIT, PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
