@@ -3,8 +3,18 @@
 from __future__ import annotations
 
 from linkforge_compile.compare.difference import Difference, Kind, Plain
+from linkforge_compile.compare.folders import with_folders
 from linkforge_compile.compare.matching import RemovedName, removed_public_names
 from linkforge_compile.compare.robots import compare
 from linkforge_compile.compare.walk import TOLERANCE
 
-__all__ = ["TOLERANCE", "Difference", "Kind", "Plain", "RemovedName", "compare", "removed_public_names"]
+__all__ = [
+    "TOLERANCE",
+    "Difference",
+    "Kind",
+    "Plain",
+    "RemovedName",
+    "compare",
+    "removed_public_names",
+    "with_folders",
+]

@@ -440,3 +440,76 @@ def test_the_folder_of_a_package_that_the_revision_lacks_is_an_error(repository:
     assert (run.returncode, expected in run.stderr) == (2, True)
     run = linkforge("diff", "vendor/hands/hand.robot.yaml", "--git", "HEAD", cwd=repository.folder)
     assert "is not in revision 'HEAD'; submodules, here 'vendor', are left out\n" in run.stderr
+
+
+ROBOT_WITH_FILES = """\
+linkforge: 1
+name: robot
+links: {base: {visual: {mesh: "file://$(path('meshes/a.stl'))"}}, tool: }
+modules: {camera: {use: camera.urdf.xacro, parent: base}}
+joints: {flange: {type: fixed, parent: base, child: tool}}
+gazebo: {plugins: {p: {filename: libp.so, parameters: {gains: $(path('../data/masses.yaml'))}}}}
+"""
+CAMERA = """\
+<robot name="camera" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="camera"/>
+  <gazebo><plugin name="c" filename="c.so"><file>$(find repo)/data/masses.yaml</file></plugin></gazebo>
+</robot>
+"""
+
+
+def test_the_path_of_a_file_of_the_repository_is_no_difference(repository: Repository):
+    repository.write("package.xml", "<package><name>repo</name></package>\n")
+    repository.write("robots/robot.robot.yaml", ROBOT_WITH_FILES)
+    repository.write("robots/camera.urdf.xacro", CAMERA)
+    repository.commit()
+    link = repository.folder.parent / "link"
+    link.symlink_to(repository.folder)
+    for cwd in (repository.folder, link):
+        run = linkforge("diff", str(cwd / "robots/robot.robot.yaml"), "--git", "HEAD", cwd=cwd)
+        assert (run.returncode, run.stderr) == (0, ""), run.stdout
+    repository.write("robots/robot.robot.yaml", ROBOT_WITH_FILES.replace("../data/masses", "arm.robot"))
+    run = linkforge("diff", "robots/robot.robot.yaml", "--git", "HEAD", "--json", cwd=repository.folder)
+    (difference,) = json.loads(run.stdout)["differences"]
+    expected = [str(repository.folder / name) for name in ("data/masses.yaml", "robots/arm.robot.yaml")]
+    assert [difference["before"], difference["after"]] == expected
+
+
+def test_the_path_of_a_file_of_an_installed_package_is_no_difference(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch
+):
+    for name, text in (("package.xml", "<package><name>hands</name></package>\n"), ("gains.yaml", "a: 1\n")):
+        repository.write(f"src/hands/{name}", text)
+    path = "$(path('package://hands/gains.yaml'))"
+    repository.write("src/cell/cell.robot.yaml", CELL_WITH_GAINS.format(path=path))
+    repository.commit()
+    prefix = install_with_links(repository.folder.parent / "install", repository.folder / "src" / "hands")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    run = linkforge("diff", "src/cell/cell.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert (run.returncode, run.stderr) == (0, ""), run.stdout
+
+
+CELL_WITH_GAINS = """\
+linkforge: 1
+name: cell
+links: {{base: }}
+gazebo: {{plugins: {{p: {{filename: libp.so, parameters: {{gains: "{path}"}}}}}}}}
+"""
+
+
+def test_the_path_of_a_file_in_another_version_of_a_package_is_no_difference(tmp_path: Path):
+    for version in ("p1", "p2", "p22"):
+        (tmp_path / version).mkdir()
+        (tmp_path / version / "gains.yaml").write_text("a: 1\n")
+    path = "$(path('package://vend/gains.yaml'))"
+    (tmp_path / "cell.robot.yaml").write_text(CELL_WITH_GAINS.format(path=path))
+    words = ("diff", "cell.robot.yaml", "--before-package", "vend=p1", "--after-package")
+    run = linkforge(*words, "vend=./../" + tmp_path.name + "/p2", cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, ""), run.stdout
+    spec = CELL_WITH_GAINS.format(path="$(path(g))") + "parameters: {g: {type: file}}\n"
+    (tmp_path / "cell.robot.yaml").write_text(spec)
+    files = ("--before", "g=p1/gains.yaml", "--after", "g=p22/gains.yaml")
+    run = linkforge(*words, "vend=p2", *files, "--json", cwd=tmp_path)
+    (difference,) = json.loads(run.stdout)["differences"]
+    expected = [str(tmp_path / version / "gains.yaml") for version in ("p2", "p22")]
+    assert [difference["before"], difference["after"]] == expected

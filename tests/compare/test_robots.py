@@ -8,7 +8,7 @@ import time
 import pytest
 
 from linkforge_compile import compile_text
-from linkforge_compile.compare import Kind, compare, removed_public_names
+from linkforge_compile.compare import Kind, compare, removed_public_names, with_folders
 from linkforge_compile.core import (
     Joint,
     JointType,
@@ -431,3 +431,18 @@ def test_the_semantic_part_can_be_left_out():
     before, after = robot_of(SPEC), robot_of(SPEC[: SPEC.index("semantic:")])
     assert compare(before, after, semantic=False) == removed_public_names(before, after, semantic=False) == ()
     assert [name.name for name in removed_public_names(before, after)] == ["arm", "arm/home"]
+
+
+def test_paths_in_other_folders_are_the_same_in_texts_meshes_and_raw_xml():
+    spec = """\
+linkforge: 1
+name: arm
+links: {base: {visual: {mesh: "file:///old/arm/a.stl"}}}
+extra: ['<config file="/old/arm/c.yaml"/>']
+ros2_control:
+  hw: {type: system, hardware_plugin: p, parameters: {file: /old/arm/c.yaml, other: /old/arm2/c.yaml /x/old/arm/c}}
+"""
+    before = with_folders(robot_of(spec), {"/old/arm": "/new/arm"})
+    after = robot_of(spec.replace("/old/arm/", "/new/arm/").replace("/x/new", "/x/old"))
+    assert compare(before, after) == ()
+    assert with_folders(after, {"/old/arm": "/new/arm"}).links == after.links

@@ -8,6 +8,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
+from linkforge_compile.cli.diff_folders import in_common_folders
 from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
 from linkforge_compile.cli.options import add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report
@@ -135,6 +136,7 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
     if report([*faults, *more], arguments) or before is None or after is None:
         return NO_ROBOT
     (before, after), not_read_back = as_urdfs(sides, (before, after), arguments)
+    before, after = in_common_folders(sides, (before, after), arguments)
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import TOLERANCE, compare, removed_public_names
 
