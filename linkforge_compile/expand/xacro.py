@@ -90,7 +90,11 @@ def read_xacro(
     if expansion is None:
         return None
     inside = with_use_trace(sink, (use.used.where,))
-    paths = _package_paths(expansion, spec_folder, loader) if spec_folder else NO_PACKAGE_PATHS
+    paths = NO_PACKAGE_PATHS
+    if spec_folder:
+        paths = _package_paths(expansion, spec_folder, loader)
+        # What the spec finds elsewhere is no loss, so its own check finds what xacro found.
+        loader.packages = {**expansion.packages, **loader.packages}
     imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused, package_paths=paths)
     return (expansion.files, imported) if imported else None
 
@@ -98,12 +102,12 @@ def read_xacro(
 def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> PackagePaths:
     from linkforge_compile.importers.package_paths import FoundPackage, PackagePaths
 
-    return PackagePaths(
-        {
-            str(folder): FoundPackage(name, find_package(name, {}, spec_folder, loader.roots) == folder)
-            for name, folder in expansion.packages.items()
-        }
-    )
+    roots = loader.roots
+    found = {
+        str(folder): FoundPackage(name, find_package(name, {}, spec_folder, roots))
+        for name, folder in expansion.packages.items()
+    }
+    return PackagePaths(found, roots)
 
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:

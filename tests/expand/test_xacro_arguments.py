@@ -212,3 +212,24 @@ def test_a_path_of_a_package_that_the_spec_cannot_find_is_reported(package: Path
     assert read.text is not None
     assert f"file: {package}/c.yaml" in read.text
     assert [(one.code.id, one.span.line) for one in read.diagnostics if one.span] == [("LF8025", 3)]
+
+
+@pytest.mark.parametrize("folder", ["pkg", "."])
+def test_a_path_in_the_installed_copy_of_a_package_is_an_expression(
+    package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: str
+):
+    installed = tmp_path / "install/share/pkg"
+    for copy in (package, installed):
+        copy.mkdir(parents=True, exist_ok=True)
+        (copy / "c.yaml").write_text("a: 1\n", "utf-8")
+    (installed / "d.yaml").write_text("a: 1\n", "utf-8")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "install"))
+    read = import_urdf(package / "r.urdf.xacro", output=tmp_path / folder)
+    assert read.text is not None
+    assert "file: $(path('package://pkg/c.yaml'))" in read.text
+    # Only the installation has this file, which a spec in the source tree of the package would not find.
+    is_near = folder == "."
+    assert (f'"{installed}/d.yaml"' in read.text) is not is_near
+    assert ("package://pkg/d.yaml" in read.text) is is_near
+    assert [loss.code.id for loss in read.losses] == []
+    assert ("LF8025" in {one.code.id for one in read.diagnostics}) is not is_near
