@@ -147,7 +147,8 @@ class _Evaluation:
         text = as_text(value)
         if text is None:
             expression = self._expression
-            self._sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value)))
+            way = "; join() makes one text of its items" if isinstance(value, tuple) else ""
+            self._sink.report(codes.NOT_TEXT.at(expression.span(expression.tree), found=kind_name(value), way=way))
         return text
 
     def result(self) -> Value | Fault:

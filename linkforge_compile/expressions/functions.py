@@ -11,6 +11,7 @@ from typing import Any
 
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.operators import (
+    MAX_TEXT,
     Number,
     Operation,
     number,
@@ -129,6 +130,24 @@ def _str(value: Value) -> Value:
     return text
 
 
+def _join(values: Value, separator: Value = " ") -> Value:
+    """Return the items of a list as one text, as URDF and most plugins write a vector."""
+    if not isinstance(values, tuple):
+        raise wrong_kind("a list", values, operand=0)
+    if not isinstance(separator, str):
+        raise wrong_kind("text between the items", separator, operand=1)
+    texts: list[str] = []
+    for value in values:
+        text = as_text(value)
+        if text is None:
+            raise wrong_kind("a list of single values", value, operand=0)
+        texts.append(text)
+    # Few items, each of them long, would be a text that exhausts memory.
+    if sum(map(len, texts)) + len(texts) * len(separator) > MAX_TEXT:
+        raise RefusedError(codes.TEXT_TOO_LONG, limit=f"{MAX_TEXT:,}")
+    return separator.join(texts)
+
+
 def _text(value: Value) -> Value:
     """Return the argument of a function of the file."""
     if isinstance(value, str):
@@ -165,6 +184,7 @@ FUNCTIONS = _by_name(
     _function("int(number)", partial(_to_number, int, _WHOLE_NUMBER)),
     _function("float(number)", partial(_to_number, float, _DECIMAL_NUMBER)),
     _function("str(value)", _str),
+    _function("join(list) or join(list, separator)", _join, most=2),
 )
 """The functions by name."""
 

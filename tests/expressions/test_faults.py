@@ -100,10 +100,12 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
         ("$(row['mas'])", "'mas'", "no key 'mas' in this map; did you mean 'mass'?"),
         ("$(sizes[4])", "4", "no item 4 in a list of 4; the first is 0"),
         ("$(sizes[1.0])", "1.0", "a list takes a whole number in its brackets, found a number"),
+        ("$(join(side))", "side", "join() takes a list, found the text 'left'"),
+        ("$(join(sizes, 1))", "1", "join() takes text between the items, found a number"),
         ("$(merge(row, sizes))", "sizes", "merge() takes a map, found a list"),
         ("$(side.x)", "side.x", "'.x' takes a map or a vector's x, y, z, found the text 'left'"),
         ("$(count.__class__)", "count.__class__", "'.__class__' takes a map or a vector's x, y, z, found a number"),
-        ("arm_$(sizes)", "sizes", "a list cannot be inserted into text"),
+        ("arm_$(sizes)", "sizes", "a list cannot be inserted into text; join() makes one text of its items"),
         ("arm_$(nothing)", "nothing", "null cannot be inserted into text"),
     ],
 )
@@ -228,3 +230,9 @@ def test_no_text_breaks_an_expression_and_every_span_lies_in_the_text(text: str)
     for reported in sink:
         assert reported.span is not None
         assert span.start <= reported.span.start <= reported.span.end <= span.end
+
+
+@pytest.mark.parametrize("items", [((1, 2), 3), (None,), ("a" * 40_000, "b" * 40_000)])
+def test_join_takes_single_values_of_limited_length(items: tuple[Value, ...]):
+    result = compute("$(join(items))", {"items": items})
+    assert [text for text, _ in result.reported] in (["items"], ["join(items)"])

@@ -65,6 +65,8 @@ NAMES: dict[str, Value] = {
         ("$(len(sizes) + len(row) + len(side))", 12),
         ("$(merge(row, row.limits))", {**NAMES["row"], "x": 9}),
         ("$(merge(row.limits, row, row.limits).x)", 9),
+        ("$(join(xyz))", "1 2.5 0.5"),
+        ("at $(join(sizes, ', ')).", "at 4, 2, 7, 1."),
         ("$(int('12') + int(2.9))", 14),
         ("$(float('1e-3'))", 0.001),
         ("$(str(4.0) + str(on))", "4true"),

@@ -27,7 +27,7 @@ RESULT_TOO_LARGE = Code("LF3127", _E, "the result of {operation} is not a finite
 TEXT_TOO_LONG = Code("LF3128", _E, "the text grows beyond {limit} characters")
 UNKNOWN_KEY = Code("LF3129", _E, "no key '{name}' in this map")
 NO_SUCH_ITEM = Code("LF3130", _E, "no item {index} in a list of {length}; the first is 0")
-NOT_TEXT = Code("LF3131", _E, "{found} cannot be inserted into text")
+NOT_TEXT = Code("LF3131", _E, "{found} cannot be inserted into text{way}")
 
 CIRCULAR_NAMES = Code("LF3141", _E, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", _E, "'{first}' is computed through {count} other names")
