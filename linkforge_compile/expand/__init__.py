@@ -7,7 +7,6 @@ What each module knows; it imports only those above it:
     uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes
     values            a node <-> its value in expressions; where a value was written
     evaluate          a node with expressions -> its value in one scope
-    repetition_words  a map and its shape -> which of `for` and `when` in it repeat it, and are no keys of its own
     expand_tree       a tree with expressions, `for` and `when` -> one without
     arguments         what the user sets -> Arguments; the variants of a file
     parameters        a declaration -> type and constraints, which convert a value or refuse it
