@@ -95,7 +95,7 @@ def with_final_paths(value: Value, shape: Shape, is_free: bool) -> Value:
 
 
 class Size(NamedTuple):
-    """The size of a value: nodes (tags of raw XML included), characters, and the nesting depth of lists and maps."""
+    """The size of a value: nodes (keys and tags of raw XML included), characters, and the nesting depth."""
 
     nodes: int
     characters: int
@@ -118,7 +118,7 @@ def size_of(value: Value, max_nodes: int) -> Size:
         elif isinstance(part, tuple):
             waiting.extend((item, level + 1) for item in part)
         elif isinstance(part, Mapping):
-            characters += sum(map(len, part))
+            nodes, characters = nodes + len(part), characters + sum(map(len, part))
             waiting.extend((item, level + 1) for item in part.values())
     return Size(nodes, characters, depth)
 
