@@ -167,7 +167,10 @@ def parameter_value(
             value = found if is_used else value
         if value is not None:
             settings += set_by
-    return value, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+    if not settings:
+        return value, None
+    is_normalized = type_.name in ("integer", "boolean")
+    return value, replace(settings[0], instead_of=tuple(settings[1:]), is_normalized=is_normalized)
 
 
 def _fitting_value(
