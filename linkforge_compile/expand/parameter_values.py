@@ -149,7 +149,7 @@ def parameter_value(
         writer = Writer(AnnotatingSink(bound.sink, declared), bound.evaluator, bound.arguments.folder)
         candidates.append((node, writer, bound.settings(declaration.name, node)))
     else:
-        _report_disagreement(declaration.name, variants, evaluator.sink)
+        _report_disagreement(parameter, variants, evaluator)
     for name, node in variants.settings_of(declaration.name):
         writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
         is_selected = name in variants.selected
@@ -196,14 +196,25 @@ def _fitting_value(
     return path
 
 
-def _report_disagreement(parameter: str, variants: Variants, sink: Diagnostics) -> None:
-    """Report a parameter that a selected variant sets to another value than the one that decides."""
-    selected = [setting for setting in variants.settings_of(parameter) if setting[0] in variants.selected]
-    for other, node in selected[1:]:
-        name, used = selected[0]
-        if plain_value(node) != plain_value(used):
-            notes = [Note(f"variant '{other}' sets it here", node.span)]
-            sink.report(VARIANTS_DISAGREE.at(used.span, name=parameter, by=name, other=other, notes=notes))
+def _report_disagreement(parameter: Parameter, variants: Variants, evaluator: Evaluator) -> None:
+    """Report a parameter that a selected variant sets to another value than the one that decides.
+
+    Computed values are not compared: one that is not used may use names that have no value.
+    """
+    settings = [setting for setting in variants.settings_of(parameter.name) if setting[0] in variants.selected]
+    values = [_constant(parameter.type, node, evaluator) for _, node in settings]
+    for (other, node), value in list(zip(settings, values, strict=True))[1:]:
+        if None not in (value, values[0]) and value != values[0]:
+            (name, used), notes = settings[0], [Note(f"variant '{other}' sets it here", node.span)]
+            evaluator.sink.report(
+                VARIANTS_DISAGREE.at(used.span, name=parameter.name, by=name, other=other, notes=notes)
+            )
+
+
+def _constant(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value:
+    """Return the value of a node as one of the type, None if it is computed or does not fit."""
+    value = FAULT if evaluator.expressions.is_computed(node) else Writer(evaluator.sink, None, None).value(node, type_)
+    return None if value is FAULT else type_.convert(value)
 
 
 def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
