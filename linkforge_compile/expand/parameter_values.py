@@ -105,12 +105,14 @@ class BoundArguments:
         node = entry.value
         if not (self.arguments.as_text and type_.is_structured and isinstance(node, YamlScalar)):
             return node
+        if type_.name == "vector" and (numbers := _numbers_in(node)):
+            return numbers
         file = SourceFile(node.span.file.name, f"{name}: {node.text}")
         parsed = read(file, self.sink)
         value = None if parsed is None else parsed.get(name)
         if parsed is None or value is None:
             return YamlFault(node.span) if parsed is None else node
-        return _numbers_in(value) if type_.name == "vector" else value
+        return value
 
     def settings(self, name: str, node: YamlNode) -> list[Setting]:
         """Return what set a parameter to the node, then what overrides replaced by it."""
@@ -123,13 +125,11 @@ class BoundArguments:
         return [Setting(kind, one, self.evaluator, one.span.file.text if is_typed else "") for one in nodes]
 
 
-def _numbers_in(node: YamlNode) -> YamlNode:
-    """Return a list of the numbers in a text with blanks between them, as xacro has them; other nodes as they are."""
-    if not isinstance(node, YamlScalar) or len(parts := node.text.split()) < 2:
-        return node
-    numbers = tuple(YamlScalar(part, scalar_value(part), node.span) for part in parts)
-    is_vector = all(isinstance(number.value, int | float) for number in numbers)
-    return YamlList(numbers, node.span) if is_vector else node
+def _numbers_in(node: YamlScalar) -> YamlList | None:
+    """Return a list of the numbers in a text with blanks between them, as xacro has them; None for other text."""
+    numbers = tuple(YamlScalar(part, scalar_value(part), node.span) for part in node.text.split())
+    is_vector = len(numbers) > 1 and all(isinstance(number.value, int | float) for number in numbers)
+    return YamlList(numbers, node.span) if is_vector else None
 
 
 def parameter_value(
