@@ -76,7 +76,10 @@ class Side(NamedTuple):
     def all_packages(self, arguments: Namespace) -> dict[str, str]:
         """Return the folders of packages, of both sides and of this one; those in the repository as of its revision."""
         packages = {**packages_of(arguments), **self.packages}
-        return {name: str(self.tree.path(folder)) if self.tree else folder for name, folder in packages.items()}
+        if self.tree is None:
+            return packages
+        found = {name: str(folder) for name, folder in self.tree.packages().items()}
+        return {**found, **{name: str(self.tree.path(folder)) for name, folder in packages.items()}}
 
     @property
     def has_semantic(self) -> bool:

@@ -1,8 +1,11 @@
 """`linkforge diff SPEC --git REV` and `--before-package`, with real repositories."""
 
+import hashlib
 import json
 import os
 import subprocess
+import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -46,6 +49,24 @@ class Repository:
     def commit(self) -> None:
         self.git("add", "--all")
         self.git("commit", "-q", "--message", "state")
+
+    def blob(self, text: str) -> str:
+        """Store a text as an object; return its name."""
+        return self._store("blob", text.encode())
+
+    def forge_tree(self, *entries: tuple[str, str, str]) -> str:
+        """Store a tree of entries (mode, name, object) that git itself might refuse to make; return its name."""
+        body = b"".join(f"{mode} {name}\0".encode() + bytes.fromhex(object_) for mode, name, object_ in entries)
+        return self._store("tree", body)
+
+    def _store(self, kind: str, body: bytes) -> str:
+        """Write a loose object, as `git hash-object --literally` does, without its checks."""
+        content = f"{kind} {len(body)}\0".encode() + body
+        name = hashlib.sha1(content, usedforsecurity=False).hexdigest()
+        path = self.folder / ".git" / "objects" / name[:2] / name[2:]
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(zlib.compress(content))
+        return name
 
 
 @pytest.fixture
@@ -96,6 +117,40 @@ def test_a_spec_that_was_renamed_is_compared_with_the_old_one(repository: Reposi
     (repository.folder / "old").mkdir()
     moved = linkforge("diff", "old/arm.robot.yaml", words[1], "--git", "HEAD~1", cwd=repository.folder)
     assert "is not in revision 'HEAD~1'; there is 'robots/arm.robot.yaml'" in moved.stderr
+
+
+@pytest.mark.parametrize(
+    ("spec", "message"),
+    [
+        ("robots", "'robots' is a folder in revision 'HEAD'; give a file in it"),
+        (".", "'.' is a folder in revision 'HEAD'; give a file in it"),
+        ("link.robot.yaml", "'link.robot.yaml' is a link to 'lib/gone.robot.yaml', which revision 'HEAD' lacks"),
+        ("data/robots", "'data/robots' is not in revision 'HEAD'"),
+        ("robots/arn.robot.yaml", "is not in revision 'HEAD'; did you mean 'arm.robot.yaml'?"),
+    ],
+)
+def test_a_spec_that_the_revision_lacks_is_an_error(repository: Repository, spec: str, message: str):
+    (repository.folder / "link.robot.yaml").symlink_to("lib/gone.robot.yaml")
+    repository.commit()
+    run = linkforge("diff", spec, "--git", "HEAD", cwd=repository.folder)
+    assert run.returncode == 2
+    assert run.stderr.rstrip("\n").endswith(message)
+
+
+def test_a_hook_in_a_linked_worktree_compares_with_its_own_repository(repository: Repository):
+    hook = repository.folder / ".git" / "hooks" / "pre-commit"
+    command = f"'{sys.executable}' -m linkforge_compile diff arm.robot.yaml --git HEAD"
+    hook.write_text(f'#!/bin/sh\nset -e; test -n "$GIT_DIR"; cd robots; {command} > ../../output\n')
+    hook.chmod(0o755)
+    repository.git("worktree", "add", "-q", "../linked")
+    repository.git("-C", "../linked", "commit", "-q", "--allow-empty", "--message", "state")
+    output = repository.folder.parent / "output"
+    assert output.read_text() == "arm.robot.yaml (HEAD) and arm.robot.yaml are the same robot\n"
+
+
+def test_the_repository_is_the_one_around_the_spec(repository: Repository):
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder, GIT_DIR="/nowhere")
+    assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_an_error_in_the_revision_is_reported_at_its_place_there(repository: Repository):
@@ -161,26 +216,43 @@ def test_a_link_that_leads_out_of_the_revision_is_not_followed(repository: Repos
 
 def test_a_forged_path_is_not_written(repository: Repository):
     blob = repository.git("hash-object", "-w", "data/masses.yaml").strip()
-    entry = f"100644 blob {blob}\t..\n".encode()
-    command = [program("git"), "mktree"]
-    made = subprocess.run(command, cwd=repository.folder, input=entry, capture_output=True, check=False, timeout=60)
-    if made.returncode:
-        # git itself refuses to make such a tree, so its bytes are written as an object.
-        body = b"100644 ..\0" + bytes.fromhex(blob)
-        forged = subprocess.run(
-            [program("git"), "hash-object", "-w", "-t", "tree", "--literally", "--stdin"],
-            cwd=repository.folder,
-            input=body,
-            capture_output=True,
-            check=True,
-            timeout=60,
-        )
-        tree = forged.stdout.decode().strip()
-    else:
-        tree = made.stdout.decode().strip()
+    tree = repository.forge_tree(("100644", "..", blob))
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
     assert run.returncode == 2
     assert "the revision has a file that may not be written, '..'" in run.stderr
+
+
+@pytest.mark.parametrize("inner_mode", ["120000", "100644"])
+def test_nothing_is_written_through_a_link_of_the_revision(repository: Repository, inner_mode: str):
+    victim = repository.folder.parent / "victim"
+    victim.mkdir()
+    inner = repository.forge_tree((inner_mode, "injected", repository.blob("/etc/passwd")))
+    tree = repository.forge_tree(("120000", "d", repository.blob(str(victim))), ("40000", "d", inner))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd'" in run.stderr
+    assert not list(victim.iterdir())
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+@pytest.mark.parametrize("has_files", [True, False])
+def test_a_revision_of_few_objects_and_endless_paths_is_refused(repository: Repository, has_files: bool):
+    tree = repository.forge_tree(*([("100644", "leaf", repository.blob("x"))] if has_files else []))
+    for _ in range(12):
+        tree = repository.forge_tree(*(("40000", str(number), tree) for number in range(10)))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has more than 100,000 files and folders" in run.stderr
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+def test_folders_deeper_than_any_robot_needs_are_refused(repository: Repository):
+    tree = repository.forge_tree(("100644", "leaf", repository.blob("x")))
+    for _ in range(1500):
+        tree = repository.forge_tree(("40000", "d", tree))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd/d/" in run.stderr
 
 
 @pytest.mark.parametrize(
@@ -246,3 +318,35 @@ def test_a_package_in_the_repository_is_read_as_of_the_revision(repository: Repo
     words = ("diff", "robots/cell.robot.yaml", "--package", "hands=vendor", "--git", "HEAD")
     run = linkforge(*words, cwd=repository.folder)
     assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stderr
+
+
+@pytest.mark.parametrize("variable", ["ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"])
+@pytest.mark.parametrize("is_src_alone", [False, True], ids=["workspace", "src"])
+def test_a_package_of_the_environment_is_read_as_of_the_revision(
+    repository: Repository, variable: str, is_src_alone: bool
+):
+    repository.write("src/hands/package.xml", "<package><name>hands</name></package>\n")
+    repository.write("src/hands/urdf/hand.robot.yaml", HAND)
+    repository.write(
+        "src/app/cell.robot.yaml",
+        "linkforge: 1\nname: cell\nlinks: {tool: }\n"
+        'modules: {hand: {use: "package://hands/urdf/hand.robot.yaml", parent: tool}}\n',
+    )
+    if is_src_alone:
+        (repository.folder / ".git").rename(repository.folder / "src" / ".git")
+        repository.folder = repository.folder / "src"
+    repository.commit()
+    src = repository.folder if is_src_alone else repository.folder / "src"
+    (src / "hands" / "urdf" / "hand.robot.yaml").write_text(HAND.replace("mass: 1", "mass: 2"))
+    value = src if variable == "ROS_PACKAGE_PATH" else install_with_links(src.parent / "install", src / "hands")
+    run = linkforge("diff", "app/cell.robot.yaml", "--git", "HEAD", cwd=src, **{variable: str(value)})
+    assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stdout + run.stderr
+
+
+def install_with_links(prefix: Path, package: Path) -> Path:
+    """Install each file of a package as a link, as `colcon build --symlink-install` does."""
+    for file in [file for file in package.rglob("*") if file.is_file()]:
+        link = prefix / "share" / package.name / file.relative_to(package)
+        link.parent.mkdir(parents=True, exist_ok=True)
+        link.symlink_to(file)
+    return prefix
