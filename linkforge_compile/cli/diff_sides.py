@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from argparse import Namespace
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -25,6 +26,7 @@ from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.cli.git_tree import GitTree
+    from linkforge_compile.compare import Difference
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.source import Span
@@ -203,6 +205,17 @@ def _as_in_git(diagnostics: Sequence[Diagnostic], tree: GitTree | None) -> Seque
         )
         for one in diagnostics
     ]
+
+
+def name_as_git(differences: Iterable[Difference], tree: GitTree) -> Iterator[Difference]:
+    """Yield differences with the files of a revision named as git names them, without those that only differ in that.
+
+    Absolute paths, such as those of `path()` in specs and `$(find)` in xacros, lead to the temporary copy.
+    """
+    for one in differences:
+        before, after = (json.dumps(value, ensure_ascii=False) for value in (one.before, one.after))
+        if before.replace(str(tree.copy), str(tree.top)) != after:
+            yield replace(one, before=json.loads(tree.in_words(before)), text=tree.in_words(one.text))
 
 
 def as_urdfs(

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
-from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
+from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, name_as_git, parse_side, share_out
 from linkforge_compile.cli.options import add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report
 
@@ -140,12 +140,13 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
     semantic = all(side.has_semantic for side in sides)
+    differences = compare(before, after, tolerance=tolerance, semantic=semantic)
     comparison = _Comparison(
         sides,
         tolerance,
         not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
-        compare(before, after, tolerance=tolerance, semantic=semantic),
+        [*name_as_git(differences, tree)] if tree else differences,
         removed_public_names(before, after, semantic=semantic),
     )
     write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))
