@@ -48,7 +48,7 @@ MAY_IMPORT = {
     "launch": "diagnostics formats core expand pipeline file_watcher",
     "editor": "diagnostics units syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (
-        "banner source diagnostics limits roots core checks schema expand pipeline importing formats export_spec "
+        "banner source diagnostics limits roots paths core checks schema expand pipeline importing formats export_spec "
         "compare editor resources file_watcher _version"
     ),
 }

@@ -161,7 +161,7 @@ def _expand_scalar(scalar: YamlScalar, evaluator: Evaluator, shape: Shape, is_fr
         return YamlFault(scalar.span)
     if not expressions.charge_value(value, scalar.span, evaluator.sink):
         return YamlFault(scalar.span)
-    return node_of(with_final_paths(value, shape, is_free), evaluator.place(scalar))
+    return node_of(with_final_paths(value, shape, is_free), evaluator.place(scalar), is_free)
 
 
 def _occurrences(
