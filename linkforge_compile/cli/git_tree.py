@@ -6,9 +6,10 @@ Files come from `git cat-file`, which runs no hooks and no filters; `git archive
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -33,17 +34,40 @@ _GIT = ("git", "--no-pager", "--no-optional-locks", "--no-replace-objects", "-c"
 
 
 class GitTree(NamedTuple):
-    """A copy of the files of a revision: `name` is that of the revision, `top` the repository, `copy` its copy."""
+    """A copy of the files of a revision: `name` is that of the revision, `top` the repository, `copy` its copy.
+
+    `submodules` are the paths of those that are not copied.
+    """
 
     name: str
     top: Path
     copy: Path
+    submodules: frozenset[PurePosixPath]
 
     def path(self, path: str | Path) -> Path:
         """Return the copy of a file or folder; the path itself for one that is outside of the repository."""
         # The folder may be a link into the repository; a file that is a link is one in the copy too.
         absolute = Path(os.path.realpath(Path(path).parent), Path(path).name)
         return self.copy / absolute.relative_to(self.top) if absolute.is_relative_to(self.top) else Path(path)
+
+    def path_as_typed(self, path: str) -> str:
+        """Return the copy of a file; from the working directory for a relative path, as its user wrote it."""
+        copy = self.path(path)
+        is_copied = copy.is_relative_to(self.copy)
+        return os.path.relpath(copy) if is_copied and not Path(path).is_absolute() else str(copy)
+
+    def folder(self, path: str) -> Path:
+        """Return the copy of the folder of a package; UsageError if the revision lacks it."""
+        copy = self.path(path)
+        if copy.is_dir():
+            return copy
+        raise UsageError(f"there is no folder '{path}' in revision '{self.name}'{self.why_missing(copy)}")
+
+    def why_missing(self, copy: Path) -> str:
+        """Return the end of a message about a missing copy that lies in a submodule; empty for another."""
+        path = PurePosixPath(copy.relative_to(self.copy).as_posix())
+        module = next((one for one in (path, *path.parents) if one in self.submodules), None)
+        return f"; submodules, here '{module}', are left out" if module else ""
 
     def packages(self) -> dict[str, Path]:
         """Return the copies of packages that the environment finds in the repository, by name.
@@ -65,6 +89,18 @@ class GitTree(NamedTuple):
             f"{self.name}:{absolute.relative_to(self.copy).as_posix()}" if absolute.is_relative_to(self.copy) else None
         )
 
+    def in_words(self, text: str) -> str:
+        """Return a text of a message in which copies have the names that git shows.
+
+        In an option to write they are files of the repository.
+        """
+        top = os.path.relpath(self.top)
+        for copy in (str(self.copy), os.path.relpath(self.copy)):
+            option = re.compile(rf"(--package \S+=){re.escape(copy)}(?=/|$)")
+            text = option.sub(lambda found: f"{found[1]}{top}", text)
+            text = text.replace(f"{copy}/", f"{self.name}:").replace(copy, f"{self.name}:")
+        return text
+
 
 @contextmanager
 def copied_tree(revision: str, spec: str) -> Iterator[GitTree]:
@@ -83,9 +119,11 @@ def copied_tree(revision: str, spec: str) -> Iterator[GitTree]:
     except UsageError:
         raise UsageError(f"the repository '{top}' has no revision '{revision}'") from None
     with tempfile.TemporaryDirectory(prefix="linkforge-git-") as name:
-        copy = GitTree(revision, top, Path(os.path.realpath(name)))
+        entries = _entries(top, tree)
+        submodules = frozenset(entry.path for entry in entries if entry.mode == _SUBMODULE)
+        copy = GitTree(revision, top, Path(os.path.realpath(name)), submodules)
         try:
-            _copy(top, tree, copy.copy)
+            _copy(top, entries, copy.copy)
         except OSError as error:
             raise UsageError(f"cannot copy revision '{revision}' to '{name}': {error.strerror}") from error
         # The top of a repository ends the search for files that a spec may read.
@@ -103,6 +141,8 @@ def _require_file(tree: GitTree, spec: str) -> None:
     if path.is_symlink():
         target = os.readlink(path)  # noqa: PTH115 - as written
         raise UsageError(f"'{spec}' is a link to '{target}', which revision '{tree.name}' lacks")
+    if why := tree.why_missing(path):
+        raise UsageError(f"'{spec}' is not in revision '{tree.name}'{why}")
     others = [one for one in sorted(tree.copy.rglob("*")) if one.name == path.name and one.is_file()]
     moved = f"; there is '{others[0].relative_to(tree.copy).as_posix()}'" if others else ""
     near = moved or did_you_mean(path.name, [other.name for other in path.parent.glob("*") if other.is_file()])
@@ -115,9 +155,9 @@ class _Entry(NamedTuple):
     path: PurePosixPath
 
 
-def _copy(top: Path, tree: str, target: Path) -> None:
+def _copy(top: Path, entries: Iterable[_Entry], target: Path) -> None:
     """Write the files of a tree below a folder, then its links, so that no file is written through one."""
-    contents = [entry for entry in _entries(top, tree) if entry.mode not in (_FOLDER, _SUBMODULE)]
+    contents = [entry for entry in entries if entry.mode not in (_FOLDER, _SUBMODULE)]
     links: list[tuple[Path, bytes]] = []
     for entry, content in zip(contents, _contents(top, [entry.object for entry in contents]), strict=True):
         path = target / entry.path

@@ -50,6 +50,11 @@ class Repository:
         self.git("add", "--all")
         self.git("commit", "-q", "--message", "state")
 
+    def state(self) -> dict[str, bytes]:
+        """Return the content of each file by its path, git's own ones included."""
+        files = (path for path in self.folder.rglob("*") if path.is_file())
+        return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in files}
+
     def blob(self, text: str) -> str:
         """Store a text as an object; return its name."""
         return self._store("blob", text.encode())
@@ -88,13 +93,14 @@ def test_a_spec_and_all_that_it_includes_are_read_as_of_the_revision(repository:
     repository.write("robots/hand.robot.yaml", HAND.replace("mass: 1", "mass: 2"))
     repository.commit()
     repository.write("data/masses.yaml", "reach: 2 m\n")
+    before = repository.state()
     for cwd, spec in ((repository.folder, arm), (repository.folder / "robots", "arm.robot.yaml")):
         run = linkforge("diff", spec, "--git", "HEAD~1", cwd=cwd)
         assert run.returncode == 1, run.stderr
         assert run.stdout.startswith(f"{spec} (HEAD~1) → {spec}: 2 changed\n")
         assert "inertial/mass: 1 kg → 2 kg (+100 %)" in run.stdout
         assert "origin: moved by 1000 mm (z +1000 mm)" in run.stdout
-    assert "reach" not in repository.git("status", "--porcelain", "--", "robots")
+    assert repository.state() == before
     assert not list((repository.folder.parent / "temporary").iterdir())
 
 
@@ -181,6 +187,9 @@ def test_nothing_that_a_repository_configures_is_run(repository: Repository):
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
     assert (run.returncode, run.stderr) == (0, "")
     assert not mark.exists()
+    # What is configured runs in the commands that were not used.
+    repository.git("status")
+    assert mark.exists()
 
 
 def test_a_partial_clone_fetches_nothing(repository: Repository):
@@ -350,3 +359,103 @@ def install_with_links(prefix: Path, package: Path) -> Path:
         link.parent.mkdir(parents=True, exist_ok=True)
         link.symlink_to(file)
     return prefix
+
+
+@pytest.mark.parametrize("option", ["-p", "--before"])
+def test_a_file_as_the_value_of_a_parameter_is_read_as_of_the_revision(repository: Repository, option: str):
+    repository.write("robots/cell.robot.yaml", CELL_WITH_FILE)
+    repository.commit()
+    repository.write("data/masses.yaml", "reach: 2 m\n")
+    for cwd, value in (
+        (repository.folder, "data/masses.yaml"),
+        (repository.folder / "robots", "../data/masses.yaml"),
+        (repository.folder / "robots", str(repository.folder / "data" / "masses.yaml")),
+    ):
+        words = [os.path.relpath(repository.folder / "robots" / "cell.robot.yaml", cwd), "--git", "HEAD"]
+        settings = [option, f"table={value}"] + (["--after", f"table={value}"] if option == "--before" else [])
+        run = linkforge("diff", *words, *settings, cwd=cwd)
+        assert (run.returncode, "moved by 1000 mm" in run.stdout) == (1, True), run.stdout + run.stderr
+    missing = linkforge("diff", "cell.robot.yaml", "--git", "HEAD", "--before", "table=new.yaml", cwd=cwd)
+    assert missing.returncode == 2
+    assert "looked for it at HEAD:robots/new.yaml" in missing.stderr
+
+
+CELL_WITH_FILE = """\
+linkforge: 1
+name: cell
+parameters: {table: {type: file, default: ../data/masses.yaml}}
+data: {facts: $(table)}
+links: {base: , tool: }
+joints: {flange: {type: fixed, parent: base, child: tool, origin: [0, 0, $(facts.reach)]}}
+"""
+
+
+def test_a_mesh_as_the_value_of_a_parameter_is_the_same_in_the_revision(repository: Repository):
+    repository.write("robots/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    spec = "links: {a: {visual: {mesh: $(m)}}, b: {visual: {mesh: a.obj}}}"
+    joints = "joints: {j: {type: fixed, parent: a, child: b}}"
+    repository.write(
+        "robots/r.robot.yaml", f"linkforge: 1\nname: r\nparameters: {{m: {{type: file}}}}\n{spec}\n{joints}\n"
+    )
+    repository.commit()
+    run = linkforge("diff", "robots/r.robot.yaml", "--git", "HEAD", "-p", "m=robots/a.obj", cwd=repository.folder)
+    assert (run.returncode, run.stderr) == (0, ""), run.stdout + run.stderr
+
+
+CELL = """\
+linkforge: 1
+name: cell
+links: {tool: }
+modules: {hand: {use: "package://hands/hand.robot.yaml", parent: tool}}
+"""
+
+
+def test_messages_name_no_temporary_file(repository: Repository):
+    repository.write("src/hands/package.xml", "<package><name>hands</name></package>\n")
+    repository.write("src/hands/hand.robot.yaml", HAND)
+    repository.write("src/app/cell.robot.yaml", CELL)
+    repository.write("src/app/arm.robot.yaml", ARM)
+    repository.commit()
+    run = linkforge("diff", "src/app/cell.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert run.stderr.count("there is one; write --package hands=./src/hands\n") == 1
+    assert "linkforge-git" not in run.stderr
+    run = linkforge("diff", "src/app/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert "looked for it at HEAD:src/data/masses.yaml" in run.stderr
+    assert "linkforge-git" not in run.stderr
+
+
+def test_the_folder_of_a_package_that_the_revision_lacks_is_an_error(repository: Repository):
+    repository.write("robots/cell.robot.yaml", CELL)
+    repository.commit()
+    repository.write("new/hand.robot.yaml", HAND)
+    repository.write("vendor/hands/hand.robot.yaml", HAND)
+    words = ("diff", "robots/cell.robot.yaml", "--git", "HEAD", "--package")
+    run = linkforge(*words, "hands=new", cwd=repository.folder)
+    assert (run.returncode, "there is no folder 'new' in revision 'HEAD'\n" in run.stderr) == (2, True)
+    commit = repository.git("rev-parse", "HEAD").strip()
+    repository.git("update-index", "--add", "--cacheinfo", f"160000,{commit},vendor")
+    repository.git("commit", "-q", "--message", "submodule")
+    run = linkforge(*words, "hands=vendor/hands", cwd=repository.folder)
+    expected = "there is no folder 'vendor/hands' in revision 'HEAD'; submodules, here 'vendor', are left out\n"
+    assert (run.returncode, expected in run.stderr) == (2, True)
+    run = linkforge("diff", "vendor/hands/hand.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert "is not in revision 'HEAD'; submodules, here 'vendor', are left out\n" in run.stderr
+
+
+def test_the_absolute_path_of_a_file_is_the_same_in_the_revision(repository: Repository):
+    plugin = "{filename: libx.so, parameters: {file: $(path('FILE'))}}"
+    spec = f"linkforge: 1\nname: r\nlinks: {{a: }}\ngazebo: {{plugins: {{p: {plugin}}}}}\n"
+    plugin = '<plugin name="p" filename="l"><x>$(find app)/x</x></plugin>'
+    xacro = f'<robot name="r" xmlns:xacro="x"><link name="a"/><gazebo>{plugin}</gazebo></robot>\n'
+    repository.write("package.xml", "<package><name>app</name></package>\n")
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "hand.robot.yaml"))
+    repository.write("robots/r.urdf.xacro", xacro)
+    repository.commit()
+    for name in ("robots/r.robot.yaml", "robots/r.urdf.xacro"):
+        same = linkforge("diff", name, "--git", "HEAD", cwd=repository.folder)
+        assert (same.returncode, same.stderr) == (0, ""), same.stdout
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "arm.robot.yaml"))
+    run = linkforge("diff", "robots/r.robot.yaml", "--git", "HEAD", "--json", cwd=repository.folder)
+    (difference,) = json.loads(run.stdout)["differences"]
+    assert difference["before"] == "HEAD:robots/hand.robot.yaml"
+    assert difference["after"] == str(repository.folder / "robots" / "arm.robot.yaml")
