@@ -263,7 +263,7 @@ def _with_semantic(
         parts = {file: SpecFile(file, tree, use.path.parent, use.package) for file in semantic.files}
         return replace(spec, tree=tree, included={**spec.included, **parts})
 
-    imported = Imported(spec.tree, Comments({}, {}))
+    imported = Imported(spec.tree, Comments({}, {}), renamed=spec.renamed)
     inside = with_use_trace(sink, (use.used.where,))
     read = with_srdf(
         imported, semantic.text, lambda tree: loader.check_spec(merged(tree), loader), inside, semantic.moved

@@ -5,9 +5,10 @@ from __future__ import annotations
 import posixpath
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import accumulate
 from textwrap import dedent
+from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.banner import BANNER
@@ -36,6 +37,8 @@ class Imported(NamedTuple):
     comments: Comments
     documents: tuple[XmlDocument, ...] = ()
     """The URDF, then the SRDF."""
+    renamed: Mapping[str, str] = MappingProxyType({})
+    """The names of the spec by those in the URDF that were replaced."""
 
 
 def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:

@@ -68,7 +68,7 @@ def read_urdf(
             root, renamed, package_paths, frozenset(element for refusal in refusals for element in refusal.path)
         )
     draft.report(sink)
-    return Imported(tree, place_comments(document, draft, tree), (document,))
+    return Imported(tree, place_comments(document, draft, tree), (document,), renamed)
 
 
 def _require_few_parts(root: XmlElement) -> None:
