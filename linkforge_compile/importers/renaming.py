@@ -7,7 +7,7 @@ whole text, also in what plugins read; each character becomes one `_`, or anothe
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -93,7 +93,7 @@ def _with_root(document: XmlDocument, root: XmlElement) -> XmlDocument:
 def _report(root: XmlElement, renamed: Renamed, sink: Diagnostics) -> None:
     """Report the first name that is replaced, and how many more there are."""
     first: dict[str, XmlAttribute] = {}
-    for element in _elements(root):
+    for element in root.walk():
         if not renamed.keys().isdisjoint(element.values.values()):
             for attribute in element.attributes.values():
                 first.setdefault(attribute.value, attribute)
@@ -102,12 +102,6 @@ def _report(root: XmlElement, renamed: Renamed, sink: Diagnostics) -> None:
     count = len(places) - 1
     notes = [Note(f"and {count} more like this, the next one here", places[1].span)] if count else []
     sink.report(NAME_REPLACED.at(places[0].span, name=name, new=renamed[name], notes=notes))
-
-
-def _elements(element: XmlElement) -> Iterator[XmlElement]:
-    yield element
-    for child in element.children:
-        yield from _elements(child)
 
 
 def _with_names(element: XmlElement, renamed: Renamed) -> XmlElement:
