@@ -225,7 +225,7 @@ class NameOrigin(NamedTuple):
     names: tuple[NameOrigin, ...]
 
 
-def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
+def find_name_origins(node: YamlNode) -> tuple[NameOrigin, ...]:
     """Return the origin of each name used by the expressions that computed a node; each name appears once."""
     return tuple(_names_of(node, None, set()))
 
