@@ -12,9 +12,9 @@ from typing import TypeAlias
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
     ENDS_IN_A_BLANK,
+    FOUND_PATH_OF_THIS_MACHINE,
     KEPT_RAW,
     NEGATIVE_LIMIT,
-    PATH_OF_THIS_MACHINE,
 )
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
@@ -53,7 +53,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, NEGATIVE_LIMIT, PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, NEGATIVE_LIMIT, FOUND_PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
@@ -133,7 +133,7 @@ class SpecDraft:
         if far is not None:
             place, begin, end = _bounds(where)
             span = place if isinstance(place, Span) else place.between(begin, end)
-            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=far))
+            self.diagnostics.append(FOUND_PATH_OF_THIS_MACHINE.at(span, package=far))
         return escaped
 
     def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:

@@ -40,7 +40,7 @@ MATERIAL_REPEATED = Code(
     "LF8022", _W, "material '{name}' is declared again with the same content; the spec has it once"
 )
 
-PATH_OF_THIS_MACHINE = Code(
+FOUND_PATH_OF_THIS_MACHINE = Code(
     "LF8025",
     _W,
     "$(find {package}) becomes a path of this machine, as that package is not found from the spec's folder",
