@@ -15,7 +15,8 @@ from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.expand.uses import charge_entries
-from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import SRDF, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import sys
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -100,7 +102,7 @@ def arguments_from_values(values: Mapping[str, object]) -> Arguments:
             raise TypeError(f"a parameter is set by its name, which is text, found {name!r}")
         typed = item if isinstance(item, CliArgument) else None
         value = typed.text if typed else _spec_value(name, item)
-        shown = value if isinstance(value, str) else repr(item)
+        shown = value if isinstance(value, str) else _shown(item)
         begin = f"{typed.name}:=" if typed else f"{name}="
         file = SourceFile(typed.place if typed else "<parameters>", begin + shown)
         key = YamlScalar(name, name, _span(file, 0, len(begin.rstrip(":="))))
@@ -133,8 +135,11 @@ def _span(file: SourceFile, start: int, length: int) -> Span:
 
 
 def _spec_value(name: str, value: object) -> Value:
-    if value is None or isinstance(value, bool | int | float | str | Quantity):
+    if value is None or isinstance(value, bool | float | str | Quantity):
         return value
+    if isinstance(value, int):
+        # Text with too many digits is infinite as well, which no parameter accepts.
+        return value if abs(value) <= sys.float_info.max else math.copysign(math.inf, 1 if value > 0 else -1)
     if isinstance(value, os.PathLike):
         return str(value)
     from numbers import Real
@@ -143,9 +148,16 @@ def _spec_value(name: str, value: object) -> Value:
         return float(value)
     if isinstance(value, Mapping):
         return {str(key): _spec_value(name, item) for key, item in value.items()}
-    if isinstance(value, Iterable):
+    if isinstance(value, Iterable) and not isinstance(value, bytes | bytearray):
         return tuple(_spec_value(name, item) for item in value)
     raise TypeError(f"parameter {name!r} cannot be {type(value).__name__}")
+
+
+def _shown(item: object) -> str:
+    try:
+        return repr(item)
+    except ValueError:  # Python refuses to write an integer of thousands of digits
+        return "…"
 
 
 class Variants(NamedTuple):

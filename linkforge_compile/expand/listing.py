@@ -17,7 +17,6 @@ from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expand.uses import SPEC_ENDINGS, XACRO, PathSite, locate, open_use
-from linkforge_compile.expand.xacro import in_order
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import identity
@@ -239,7 +238,7 @@ class _ArgumentSearch:
 
     def search(self, root: XmlElement, path: Path, depth: int = 0) -> None:
         self._seen.add(identity(path))
-        for element in in_order(root):
+        for element in root.walk():
             name, included = element.get("name"), element.get("filename")
             if element.tag == "xacro:arg" and name:
                 self.declared.setdefault(name, ListedParameter(name, "string", default=element.get("default")))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
@@ -207,7 +208,8 @@ class Loader:
             return None
         if text is None:
             notes = [searched_note(path, used.text, used.where)] if used.where else []
-            near = [name for name in names_in(path.parent) if _is_srdf(name) == _is_srdf(path.name)]
+            user = used.where.file.path if used.where else None
+            near = [name for name in names_in(path.parent) if _may_be(name, path.name) and path.with_name(name) != user]
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
             self._unread.append(as_typed(path))
             return None
@@ -237,8 +239,10 @@ class Loader:
         return compose(source, tree, folder, read_included, sink)
 
 
-def _is_srdf(name: str) -> bool:
-    return ".srdf" in name.lower()
+def _may_be(file: str, name: str) -> bool:
+    """Whether a file is a suggestion for a missing name: names that have only their endings in common are not alike."""
+    (stem, *endings), (missing, *others) = file.lower().split("."), name.lower().split(".")
+    return ("srdf" in endings) == ("srdf" in others) and nearest(missing, [stem]) is not None
 
 
 def _read_urdf(source: SourceFile, sink: Diagnostics) -> ComposedFile | None:

@@ -75,13 +75,7 @@ def _elements_of_xacro(root: XmlElement) -> list[XmlElement]:
     """Return the elements that xacro would have replaced, at any depth, in the order of the file."""
     if "<xacro:" not in root.raw:
         return []
-    found, stack = [], [root]
-    while stack:
-        element = stack.pop()
-        if element.tag.startswith("xacro:"):
-            found.append(element)
-        stack += reversed(element.children)
-    return found
+    return [one for one in root.walk() if one.tag.startswith("xacro:")]
 
 
 def _definition_in(elements: Iterable[XmlElement]) -> XmlElement | None:

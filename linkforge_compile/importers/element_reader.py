@@ -185,7 +185,7 @@ class ElementReader:
         """
         mark, size = len(self.draft.diagnostics), self.draft.size
         try:
-            if self.draft.refused and (refusal := self.draft.refused.get(child.span)):
+            if self.draft.refused and (refusal := self.draft.refused.get(child)):
                 raise CannotRepresentError(refusal.reason, refusal.span)
             reader = ElementReader(self.draft, child)
             node = read(reader)

@@ -7,7 +7,7 @@ whole text, also in what plugins read; each character becomes one `_`, or anothe
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 from linkforge_compile.core.naming import is_valid_name
 from linkforge_compile.diagnostics import Diagnostics, Note
@@ -36,7 +36,7 @@ def rename_parts(document: XmlDocument, sink: Diagnostics) -> tuple[XmlDocument,
 
 def rename_references(document: XmlDocument, known: Collection[str]) -> XmlDocument:
     """Return an SRDF with the names that the parts of its robot, which are `known`, got in the URDF."""
-    written = dict.fromkeys(value for element in _elements(document.root) for value in element.values.values())
+    written = dict.fromkeys(value for element in document.root.walk() for value in element.values.values())
     return _with_names_in(document, _valid_names(written, known.__contains__))
 
 
@@ -67,7 +67,7 @@ def _with_names_in(document: XmlDocument, renamed: Renamed) -> XmlDocument:
 def _report(root: XmlElement, renamed: Renamed, sink: Diagnostics) -> None:
     """Report the first name that is replaced, and how many more there are."""
     first: dict[str, XmlAttribute] = {}
-    for element in _elements(root):
+    for element in root.walk():
         if not renamed.keys().isdisjoint(element.values.values()):
             for attribute in element.attributes.values():
                 first.setdefault(attribute.value, attribute)
@@ -76,12 +76,6 @@ def _report(root: XmlElement, renamed: Renamed, sink: Diagnostics) -> None:
     count = len(places) - 1
     notes = [Note(f"and {count} more like this, the next one here", places[1].span)] if count else []
     sink.report(NAME_REPLACED.at(places[0].span, name=name, new=renamed[name], notes=notes))
-
-
-def _elements(element: XmlElement) -> Iterator[XmlElement]:
-    yield element
-    for child in element.children:
-        yield from _elements(child)
 
 
 def _with_names(element: XmlElement, renamed: Renamed) -> XmlElement:

@@ -10,12 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import (
-    ENDS_IN_A_BLANK,
-    FOUND_PATH_OF_THIS_MACHINE,
-    KEPT_RAW,
-    NEGATIVE_LIMIT,
-)
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE, KEPT_RAW
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
@@ -53,7 +48,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, NEGATIVE_LIMIT, FOUND_PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
@@ -68,7 +63,7 @@ class CannotRepresentError(Exception):
 class SpecDraft:
     """Builds the nodes of one spec.
 
-    `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
+    `refused` has elements that the language refuses, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
     error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
     urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has;
@@ -80,7 +75,7 @@ class SpecDraft:
 
     def __init__(
         self,
-        refused: Mapping[Span, CannotRepresentError] = MappingProxyType({}),
+        refused: Mapping[XmlElement, CannotRepresentError] = MappingProxyType({}),
         *,
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,

@@ -12,7 +12,6 @@ from linkforge_compile.importers.document import Imported, place_comments
 from linkforge_compile.importers.element_reader import ElementReader, Named, read_named
 from linkforge_compile.importers.elements import Names, read_element, read_reference
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft
-from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension
@@ -69,7 +68,7 @@ def _turning_joints(joints: object) -> Iterator[str]:
 
 
 def read_srdf(
-    document: XmlDocument, robot: YamlMap, sink: Diagnostics, refused: Mapping[Span, CannotRepresentError]
+    document: XmlDocument, robot: YamlMap, sink: Diagnostics, refused: Mapping[XmlElement, CannotRepresentError]
 ) -> Imported:
     """Read an SRDF document for a robot's spec, as a tree with the section `semantic` only.
 

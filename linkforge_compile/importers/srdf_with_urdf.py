@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 
 from linkforge_compile.compilation import Compilation
@@ -52,9 +53,9 @@ def with_srdf(
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
     document = rename_references(document, SemanticNames.of(urdf.tree).all_names)
-    refused: dict[Span, CannotRepresentError] = {}
+    refused: dict[XmlElement, CannotRepresentError] = {}
     entries = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
-    elements = 1 + entries + sum(1 for _ in _descendants(document.root))
+    elements = entries + sum(1 for _ in document.root.walk())
     for _ in range(max(2, min(_MAX_ROUNDS, _MAX_READ // elements))):
         round_sink = Diagnostics()
         whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
@@ -93,7 +94,7 @@ def _find_absent_parts(document: XmlDocument, robot: YamlMap) -> list[XmlAttribu
 def _spans_of_absent_groups(document: XmlDocument, robot: YamlMap) -> Iterator[Span]:
     """Yield the elements and attributes that name planning groups which are not in the spec."""
     groups = _names_in(robot, "groups")
-    for element in _descendants(document.root):
+    for element in document.root.walk():
         for name, attribute in element.attributes.items():
             if (name in _GROUP_REFERENCES or (name == "name" and element.tag == "group")) and (
                 attribute.value not in groups
@@ -143,22 +144,20 @@ def _merge(urdf: Imported, srdf: Imported) -> Imported:
     return Imported(tree, comments, (*urdf.documents, *srdf.documents))
 
 
-def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[Span, CannotRepresentError]:
-    """Return the elements of an SRDF, by their spans, that have an error."""
+def _refusals(document: XmlDocument, faults: tuple[Diagnostic, ...]) -> dict[XmlElement, CannotRepresentError]:
+    """Return the elements of an SRDF that have an error; those that a xacro made in one place have it together."""
     if not faults:
         return {}
-    owners = {span: element for element in _descendants(document.root) for span in _spans(element)}
-    refused: dict[Span, CannotRepresentError] = {}
+    owners = defaultdict[Span, list[XmlElement]](list)
+    for element in document.root.walk():
+        for span in {*_spans(element)}:
+            owners[span].append(element)
+    refused: dict[XmlElement, CannotRepresentError] = {}
     for fault in faults:
-        if fault.span is not None and (owner := owners.get(fault.span)):
-            refused.setdefault(owner.span, CannotRepresentError(fault.message, fault.span))
+        if fault.span is not None:
+            for owner in owners.get(fault.span, ()):
+                refused.setdefault(owner, CannotRepresentError(fault.message, fault.span))
     return refused
-
-
-def _descendants(element: XmlElement) -> Iterator[XmlElement]:
-    for child in element.children:
-        yield child
-        yield from _descendants(child)
 
 
 def _spans(element: XmlElement) -> Iterator[Span]:

@@ -231,9 +231,9 @@ def test_only_an_srdf_is_offered_for_an_srdf_that_is_not_there(arm, tmp_path: Pa
     urdf = arm()
     assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
     assert "did you mean" not in capfd.readouterr().err
-    (tmp_path / "arm_2.srdf").write_text('<robot name="arm"/>')
+    (tmp_path / "arm_1.srdf").write_text('<robot name="arm"/>')
     assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
-    assert "did you mean 'arm_2.srdf'?" in capfd.readouterr().err
+    assert "did you mean 'arm_1.srdf'?" in capfd.readouterr().err
 
 
 def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):

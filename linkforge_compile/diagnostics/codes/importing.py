@@ -112,7 +112,11 @@ OTHER_ROBOT = Code(
     "this SRDF names the robot '{name}', the URDF '{robot}', and a spec has one name; it becomes '{robot}'",
 )
 NEGATIVE_LIMIT = Code(
-    "LF8104", _W, "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have"
+    "LF8104",
+    _W,
+    "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have",
+    subject="joint",
+    grouped_by=("name", "value"),
 )
 NAME_REPLACED = Code(
     "LF8105",
