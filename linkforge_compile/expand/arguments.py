@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
+from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.uses import is_xacro
-from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Quantity
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from linkforge_compile.expressions import Value
 
 COMMAND_LINE = "<command line>"
-
-_MOST_LISTED = 8
 
 
 class Unset(Enum):
@@ -220,10 +218,3 @@ def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnost
     near = nearest(name, known)
     hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"
     sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint="" if near else hint, near=known))
-
-
-def listed(names: Sequence[str], last: str) -> str:
-    """Return names in quotes as messages list them, of many the first few."""
-    rest = len(names) - _MOST_LISTED
-    shown = [*(f"'{name}'" for name in names[:_MOST_LISTED]), *([f"{rest} more"] if rest > 0 else [])]
-    return alternatives(shown, last)

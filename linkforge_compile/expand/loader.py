@@ -39,6 +39,7 @@ class SpecFile:
     `folder` is where its relative paths start, with symbolic links as written; None for a text without a folder.
     `package` is the package through whose `package://` it was reached; what it uses from there keeps it.
     `included` are the files merged into the tree. `packages` are package folders that using files declare.
+    `renamed` are the names of a URDF's parts in the tree, by those in the URDF, where they differ.
     """
 
     file: SourceFile
@@ -47,6 +48,7 @@ class SpecFile:
     package: Package | None = None
     included: Mapping[SourceFile, SpecFile] = field(default_factory=dict)
     packages: Mapping[str, Path] = field(default_factory=dict)
+    renamed: Mapping[str, str] = field(default_factory=dict)
 
     def part_at(self, where: Span) -> SpecFile:
         """Return the included file that holds a place, or this one: relative paths written there start in it."""
@@ -250,7 +252,7 @@ def _read_urdf(source: SourceFile, sink: Diagnostics) -> ComposedFile | None:
     from linkforge_compile.importers.urdf import read_urdf
 
     imported = read_urdf(source, sink)
-    return ComposedFile(source, imported.tree) if imported else None
+    return ComposedFile(source, imported.tree, renamed=imported.renamed) if imported else None
 
 
 def _reach(composed: ComposedFile, folder: Path | None, package: Package | None) -> SpecFile:
@@ -260,7 +262,7 @@ def _reach(composed: ComposedFile, folder: Path | None, package: Package | None)
         path = follow_includes(folder or Path(), include_paths)
         inside = package if package is not None and path.is_relative_to(package.folder) else None
         included[file] = SpecFile(file, composed.tree, path.parent, inside)
-    return SpecFile(composed.file, composed.tree, folder, package, included)
+    return SpecFile(composed.file, composed.tree, folder, package, included, renamed=composed.renamed)
 
 
 class AnnotatingSink(Diagnostics):

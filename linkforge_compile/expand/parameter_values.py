@@ -17,7 +17,8 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
     VARIANTS_DISAGREE,
 )
-from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants, listed
+from linkforge_compile.diagnostics.enumerations import MOST_LISTED, alternatives, listed
+from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
 from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
 from linkforge_compile.expand.parameters import (
@@ -36,13 +37,9 @@ from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
-from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
-
-_MAX_SHOWN = 8
-"""How many parameters and variants a message shows."""
 
 _MAX_SHOWN_TEXT = 60
 """The longest list of choices that a message shows [characters]."""
@@ -279,7 +276,7 @@ _STEPS_PER_INSTRUCTION = 4
 def report_unset(declared: Sequence[Declaration], bound: BoundArguments, variants: Variants) -> None:
     """Report required parameters without a value: together at the `use`, else each where it is declared."""
     if bound.use is not None:
-        shown = declared[:_MAX_SHOWN]
+        shown = declared[:MOST_LISTED]
         names = listed([one.name for one in declared], "and")
         what = f"parameter {names} has" if len(declared) == 1 else f"parameters {names} have"
         settings = [*(f"{one.name}: {_placeholder(one)}" for one in shown), *(["…"] if shown != declared else [])]
@@ -292,7 +289,7 @@ def report_unset(declared: Sequence[Declaration], bound: BoundArguments, variant
         itself = f"parameters={{'{one.name}': …}}" if in_python else f"'-p {one.name}={_placeholder(one)}'"
         names_of_variants = [name for name, variant in variants.by_name.items() if variant.get(one.name) is not None]
         selections = [f"variant='{name}'" if in_python else f"'--variant {name}'" for name in names_of_variants]
-        remedy = alternatives([itself, *selections[:_MAX_SHOWN]])
+        remedy = alternatives([itself, *selections[:MOST_LISTED]])
         bound.sink.report(PARAMETER_NOT_SET.at(one.key.span, what=f"parameter '{one.name}' has", remedy=remedy))
 
 

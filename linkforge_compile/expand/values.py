@@ -93,7 +93,7 @@ def with_final_paths(value: Value, shape: Shape, is_free: bool) -> Value:
 
 
 class Size(NamedTuple):
-    """The size of a value: nodes (tags of raw XML included), characters, and the nesting depth of lists and maps."""
+    """The size of a value: nodes (keys and tags of raw XML included), characters, and the nesting depth."""
 
     nodes: int
     characters: int
@@ -116,7 +116,7 @@ def size_of(value: Value, max_nodes: int) -> Size:
         elif isinstance(part, tuple):
             waiting.extend((item, level + 1) for item in part)
         elif isinstance(part, Mapping):
-            characters += sum(map(len, part))
+            nodes, characters = nodes + len(part), characters + sum(map(len, part))
             waiting.extend((item, level + 1) for item in part.values())
     return Size(nodes, characters, depth)
 
@@ -225,7 +225,7 @@ class NameOrigin(NamedTuple):
     names: tuple[NameOrigin, ...]
 
 
-def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
+def find_name_origins(node: YamlNode) -> tuple[NameOrigin, ...]:
     """Return the origin of each name used by the expressions that computed a node; each name appears once."""
     return tuple(_names_of(node, None, set()))
 

@@ -43,7 +43,7 @@ MATERIAL_REPEATED = Code(
 FOUND_PATH_OF_THIS_MACHINE = Code(
     "LF8025",
     _W,
-    "$(find {package}) becomes a path of this machine, as that package is not found from the spec's folder",
+    "$(find {package}) becomes a path of this machine, {reason}",
 )
 
 ENDS_IN_A_BLANK = Code("LF8024", _W, "'{name}' of <{tag}> ends in a blank, so urdfdom {effect}; delete the blank")
