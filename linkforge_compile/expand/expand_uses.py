@@ -190,7 +190,7 @@ class _Expansion:
         """Whether a use is neither circular nor too deep; reports why not."""
         files = [other.spec.file for other in use.chain]
         if use.spec.file in files[1:]:
-            sink.report(_circle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
+            sink.report(_cycle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
         elif len(files) > MAX_DEPTH:
             sink.report(USE_TOO_DEEP.at(use.bound.use, limit=MAX_DEPTH))
         else:
@@ -216,7 +216,7 @@ def _unread(entry: ModuleEntry) -> Instance:
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 
-def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
+def _cycle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
     """Return the diagnostic for a chain of uses, the innermost first, that ends in the file it starts with."""
     path = [name_from(use.spec, compiled) for use in reversed(chain)]
     notes = [

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, PATH_OF_THIS_MACHINE
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE, KEPT_RAW
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
@@ -48,7 +48,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
@@ -128,7 +128,9 @@ class SpecDraft:
         if left is not None:
             place, begin, end = _bounds(where)
             span = place if isinstance(place, Span) else place.between(begin, end)
-            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=left.name, reason=_WHY_LEFT[left.is_near]))
+            self.diagnostics.append(
+                FOUND_PATH_OF_THIS_MACHINE.at(span, package=left.name, reason=_WHY_LEFT[left.is_near])
+            )
         return escaped
 
     def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:
