@@ -69,6 +69,6 @@ def _with_boxes_for_meshes(robot: etree._Element) -> etree._Element:
 
 
 def mjcf_model(robot: Robot, **options: str):
-    """Return MuJoCo's model of a robot's MJCF, without the meshes, whose files the tests do not have."""
+    """Return MuJoCo's model of a robot's MJCF, without the meshes that are not on this machine."""
     mujoco = pytest.importorskip("mujoco")
     return mujoco.MjModel.from_xml_string(MJCF.render(robot, Rendering(options))[0].text)

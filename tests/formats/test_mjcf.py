@@ -1,9 +1,12 @@
 """MJCF: what it has of a robot, and what it says about the rest."""
 
+import struct
+from pathlib import Path
+
 import pytest
 from lxml import etree
 
-from linkforge_compile import compile_text
+from linkforge_compile import compile_file, compile_text
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
@@ -12,6 +15,8 @@ HEAD = """linkforge: 1
 name: robot
 x-unit: &unit {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}
 """
+
+mujoco = pytest.importorskip("mujoco")
 
 TURNING = """
 links:
@@ -193,10 +198,61 @@ joints: {turn: {type: continuous, parent: base, child: arm, axis: [0, 0, 1]}}
     assert mjcf_model(compiled(robot)).body_mass.sum() == 1
 
 
-def test_a_mesh_that_mujoco_cannot_read_is_reported():
-    assert reported("links: {base: {visual: {mesh: base.dae}}}") == [
-        "LF7404 MuJoCo reads meshes in STL, OBJ and MSH; 'base.dae' is left out of the MJCF"
+def triangles(count: int) -> bytes:
+    """Return a binary STL of triangles between corners that are not in one plane."""
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [[corners[(first + one) % 4] for one in range(3)] for first in range(count)]
+    body = b"".join(struct.pack("<12fH", 0, 0, 0, *(at for corner in face for at in corner), 0) for face in faces)
+    return bytes(80) + struct.pack("<I", count) + body
+
+
+def compiled_in(folder: Path, text: str):
+    (folder / "robot.robot.yaml").write_text(HEAD + text)
+    compilation = compile_file(folder / "robot.robot.yaml")
+    assert compilation.robot is not None, compilation.diagnostics
+    return compilation.robot
+
+
+def test_relative_meshes_stay_relative(tmp_path: Path):
+    (tmp_path / "part.STL").write_bytes(triangles(4))
+    robot = compiled_in(
+        tmp_path, "links: {base: {visual: {mesh: part.STL}, collision: {mesh: {file: part.STL, scale: [2, 2, 2]}}}}"
+    )
+    text = MJCF.render(robot, Rendering())[0].text
+    assert "meshdir" not in text
+    assert '<mesh name="part" file="part.STL"/>' in text
+    assert '<mesh name="part_2" file="part.STL" scale="2 2 2"/>' in text
+    (tmp_path / "robot.mjcf").write_text(text)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.mjcf"))
+    assert (model.nmesh, model.ngeom) == (2, 2)
+
+
+def test_meshes_of_packages_are_files_below_one_folder(tmp_path: Path):
+    for package in ("arm", "hand"):
+        (tmp_path / package / "meshes").mkdir(parents=True)
+        (tmp_path / package / "package.xml").write_text(f"<package><name>{package}</name></package>")
+        (tmp_path / package / "meshes" / "part.stl").write_bytes(triangles(4))
+    robot = compiled_in(
+        tmp_path / "arm",
+        "links: {base: {visual: {mesh: package://arm/meshes/part.stl}, collision: {mesh: ../hand/meshes/part.stl}}}",
+    )
+    text = MJCF.render(robot, Rendering())[0].text
+    assert f'meshdir="{tmp_path.as_posix()}"' in text
+    assert '<mesh name="part" file="arm/meshes/part.stl"/>' in text
+    assert '<mesh name="part_2" file="hand/meshes/part.stl"/>' in text
+    assert mjcf_model(robot).nmesh == 2
+
+
+def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_path: Path):
+    (tmp_path / "base.dae").write_text("<COLLADA/>")
+    (tmp_path / "text.stl").write_text("solid text\nendsolid text\n")
+    robot = compiled_in(tmp_path, "links: {base: {visual: [{mesh: base.dae}, {mesh: text.stl}, {mesh: no.stl}]}}")
+    assert [one.message for one in MJCF.limits(robot, {})] == [
+        "mesh 'base.dae' is left out of the MJCF: MuJoCo reads STL, OBJ and MSH",
+        "mesh 'text.stl' is left out of the MJCF: MuJoCo reads binary STL of up to 200,000 triangles",
+        "mesh 'no.stl' is left out of the MJCF: the file is not found",
     ]
+    assert mjcf_model(robot).ngeom == 0
 
 
 def test_parts_without_counterpart_are_reported_by_kind():

@@ -107,8 +107,9 @@ IMPOSSIBLE_FOR_MUJOCO = Code(
 MESH_FOR_MUJOCO = Code(
     "LF7404",
     _W,
-    "MuJoCo reads meshes in STL, OBJ and MSH; '{file}' is left out of the MJCF",
+    "mesh '{file}' is left out of the MJCF: {reason}",
     named="file",
+    alike=("reason",),
 )
 NOT_IN_MJCF = Code("LF7405", _W, "MJCF has no {parts}; that of '{name}' is left out", named="name", alike=("parts",))
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
-from linkforge_compile.core.models.geometry import IDENTITY, Box, Capsule, Cylinder, Mesh, Sphere, Transform
+from linkforge_compile.core.models.geometry import IDENTITY, Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
 from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, Visual
 from linkforge_compile.core.physics import rotated
 from linkforge_compile.formats.element import attributes_at, leaf_at
@@ -21,11 +21,14 @@ if TYPE_CHECKING:
 LEAST_MASS = 1e-9
 """The mass of a moving body that has none [kg]: small enough not to matter."""
 
+MeshNames: TypeAlias = Mapping[Mesh, str]
+"""The names of the meshes that MuJoCo can read."""
+
 _NO_OFFSET = IDENTITY.xyz
 _NO_TURN = IDENTITY.rpy
 
 
-def body_views(robot: Robot, tree: BodyTree, *, is_free: bool) -> Iterator[View]:
+def body_views(robot: Robot, tree: BodyTree, meshes: MeshNames, *, is_free: bool) -> Iterator[View]:
     """Yield the bodies in the order of the tree, each with its own parts and the number of bodies that end with it."""
     massless = {link.name for link in massless_movers(robot, tree, is_free=is_free)}
     nodes = [node for node in tree.nodes if node.link.name != WORLD]
@@ -38,7 +41,7 @@ def body_views(robot: Robot, tree: BodyTree, *, is_free: bool) -> Iterator[View]
             attributes=attributes_at(link.source, name=link.name, **placed, gravcomp=gravcomp),
             inertial=inertial_element(link, is_massless=link.name in massless),
             joints=_joints(node, is_free=is_free),
-            shapes=shape_elements(link),
+            shapes=shape_elements(link, meshes),
             ends=node.depth + 1 - next_depth,
         )
 
@@ -49,9 +52,9 @@ def _joints(node: Node, *, is_free: bool) -> Sequence[Xml]:
     return [leaf_at("freejoint", node.link.source, name=f"{node.link.name}_free")] if is_free else []
 
 
-def shape_elements(link: Link) -> list[Xml]:
+def shape_elements(link: Link, meshes: MeshNames) -> list[Xml]:
     """Return the geoms of the shapes of a link, without those that MuJoCo cannot read."""
-    return [geom for shape in link.shapes if (geom := geom_element(shape, link))]
+    return [geom for shape in link.shapes if (geom := geom_element(shape, link, meshes))]
 
 
 def pose(origin: Transform) -> dict[str, Spellable | None]:
@@ -84,9 +87,9 @@ def _entries(tensor: InertiaTensor) -> tuple[float, ...]:
     return (tensor.ixx, tensor.iyy, tensor.izz, tensor.ixy, tensor.ixz, tensor.iyz)
 
 
-def geom_element(shape: Visual | Collision, link: Link) -> Xml:
+def geom_element(shape: Visual | Collision, link: Link, meshes: MeshNames) -> Xml:
     """Return the geom of a shape; nothing for one that MuJoCo cannot read."""
-    form = _form(shape)
+    form = _form(shape.geometry, meshes)
     if form is None:
         return NOTHING
     if isinstance(shape, Collision):
@@ -97,9 +100,9 @@ def geom_element(shape: Visual | Collision, link: Link) -> Xml:
     return leaf_at("geom", shape.source, **{"class": "visual"}, **form, **pose(shape.origin), rgba=rgba)
 
 
-def _form(shape: Visual | Collision) -> dict[str, Spellable | None] | None:
-    """Return the type and size of a geom: MuJoCo's sizes are radii and half lengths."""
-    match shape.geometry:
+def _form(geometry: Geometry, meshes: MeshNames) -> dict[str, Spellable | None] | None:
+    """Return the type and size of a geom, None for an unknown mesh; MuJoCo's sizes are radii and half lengths."""
+    match geometry:
         case Box(size=size):
             return {"type": "box", "size": tuple(extent / 2 for extent in size)}
         case Sphere(radius=radius):
@@ -109,4 +112,4 @@ def _form(shape: Visual | Collision) -> dict[str, Spellable | None] | None:
         case Capsule(radius=radius, length=length):
             return {"type": "capsule", "size": (radius, length / 2)}
         case Mesh():
-            return None
+            return {"type": "mesh", "mesh": meshes[geometry]} if geometry in meshes else None

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.diagnostics.codes.formats import (
     IMPOSSIBLE_FOR_MUJOCO,
     MASSLESS_IN_MUJOCO,
@@ -14,6 +13,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     NOT_IN_MJCF,
     WORLD_BELOW_JOINT,
 )
+from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree, accepted_inertia, massless_movers
 
 if TYPE_CHECKING:
@@ -52,11 +52,10 @@ def check_inertials(robot: Robot) -> Iterator[Diagnostic]:
 
 
 def check_meshes(robot: Robot) -> Iterator[Diagnostic]:
-    """Yield the meshes that are left out."""
-    for link in robot.links:
-        for shape in link.shapes:
-            if isinstance(shape.geometry, Mesh):
-                yield MESH_FOR_MUJOCO.at(shape.geometry.source, "file", file=shape.geometry.resource)
+    """MuJoCo reads some kinds of meshes, and refuses a model with a file that it cannot find."""
+    for mesh, _, fault in mesh_files(robot):
+        if fault:
+            yield MESH_FOR_MUJOCO.at(mesh.source, "file", file=mesh.resource, reason=fault)
 
 
 def check_lost_parts(robot: Robot) -> Iterator[Diagnostic]:
