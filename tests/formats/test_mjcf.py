@@ -4,17 +4,11 @@ import struct
 from pathlib import Path
 
 import pytest
-from lxml import etree
 
-from linkforge_compile import compile_file, compile_text
-from linkforge_compile.diagnostics.grouping import group_alike
+from linkforge_compile import compile_file
 from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
-
-HEAD = """linkforge: 1
-name: robot
-x-unit: &unit {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}
-"""
+from tests.formats.mjcf import HEAD, compiled, document, reported
 
 mujoco = pytest.importorskip("mujoco")
 
@@ -34,21 +28,6 @@ joints:
     limits: {lower: -1, upper: 2, effort: 5, velocity: 3}
     dynamics: {damping: 0.5, friction: 0.25}
 """
-
-
-def compiled(text: str):
-    compilation = compile_text(HEAD + text)
-    assert compilation.robot is not None, compilation.diagnostics
-    return compilation.robot
-
-
-def document(text: str, **options: str) -> etree._Element:
-    return etree.fromstring(MJCF.render(compiled(text), Rendering(options))[0].text.encode())
-
-
-def reported(text: str, **options: str) -> list[str]:
-    """Return the codes and messages of a spec's MJCF, grouped as a report has them."""
-    return [f"{one.code.id} {one.message}" for one in group_alike(MJCF.limits(compiled(text), options))]
 
 
 def attributes(text: str, path: str) -> dict[str, str]:

@@ -119,6 +119,28 @@ WORLD_BELOW_JOINT = Code(
     "MuJoCo has the name '{name}' for the ground, so no link below a joint can have it; rename this one",
 )
 
+ONE_ACTUATOR = Code(
+    "LF7407",
+    Severity.NOTE,
+    "joint '{joint}' has an actuator for its first command interface, '{interface}', and none for {others} in the MJCF",
+    named="joint",
+    alike=("interface", "others"),
+)
+NO_GAIN = Code(
+    "LF7408",
+    _W,
+    "the {interface} actuator of joint '{joint}' has MuJoCo's gain of 1; write `{gain}` into its parameters",
+    named="joint",
+    alike=("interface",),
+)
+
+OPPOSITE_SIGN = Code(
+    "LF7409",
+    Severity.NOTE,
+    "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
+    named="sensor",
+)
+
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
 UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")

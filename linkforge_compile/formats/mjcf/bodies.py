@@ -6,11 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
-from linkforge_compile.core.models.geometry import IDENTITY, Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
 from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, Visual
 from linkforge_compile.core.physics import rotated
 from linkforge_compile.formats.element import attributes_at, leaf_at
 from linkforge_compile.formats.mjcf.joints import joint_elements
+from linkforge_compile.formats.mjcf.poses import NO_OFFSET, NO_TURN, pose
+from linkforge_compile.formats.mjcf.sensors import elements_in_body
 from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree, Node, accepted_inertia, massless_movers
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml
@@ -23,9 +25,6 @@ LEAST_MASS = 1e-9
 
 MeshNames: TypeAlias = Mapping[Mesh, str]
 """The names of the meshes that MuJoCo can read."""
-
-_NO_OFFSET = IDENTITY.xyz
-_NO_TURN = IDENTITY.rpy
 
 
 def body_views(robot: Robot, tree: BodyTree, meshes: MeshNames, *, is_free: bool) -> Iterator[View]:
@@ -42,6 +41,7 @@ def body_views(robot: Robot, tree: BodyTree, meshes: MeshNames, *, is_free: bool
             inertial=inertial_element(link, is_massless=link.name in massless),
             joints=_joints(node, is_free=is_free),
             shapes=shape_elements(link, meshes),
+            sensors=elements_in_body(robot, link.name),
             ends=node.depth + 1 - next_depth,
         )
 
@@ -52,17 +52,16 @@ def _joints(node: Node, *, is_free: bool) -> Sequence[Xml]:
     return [leaf_at("freejoint", node.link.source, name=f"{node.link.name}_free")] if is_free else []
 
 
+def world_elements(robot: Robot, meshes: MeshNames) -> list[Xml]:
+    """Return the shapes and sensors of the link that is the world itself."""
+    if not robot.has_link(WORLD):
+        return []
+    return [*shape_elements(robot.links[WORLD], meshes), *elements_in_body(robot, WORLD)]
+
+
 def shape_elements(link: Link, meshes: MeshNames) -> list[Xml]:
     """Return the geoms of the shapes of a link, without those that MuJoCo cannot read."""
     return [geom for shape in link.shapes if (geom := geom_element(shape, link, meshes))]
-
-
-def pose(origin: Transform) -> dict[str, Spellable | None]:
-    """Return the attributes of a pose; those that move nothing are None."""
-    return {
-        "pos": None if origin.xyz == _NO_OFFSET else origin.xyz,
-        "euler": None if origin.rpy == _NO_TURN else origin.rpy,
-    }
 
 
 def inertial_element(link: Link, *, is_massless: bool) -> Xml:
@@ -70,13 +69,13 @@ def inertial_element(link: Link, *, is_massless: bool) -> Xml:
     inertial = link.inertial
     if is_massless:
         least = (MIN_REASONABLE_INERTIA,) * 3
-        return leaf_at("inertial", link.source, pos=_NO_OFFSET, mass=LEAST_MASS, diaginertia=least)
+        return leaf_at("inertial", link.source, pos=NO_OFFSET, mass=LEAST_MASS, diaginertia=least)
     if inertial is None:
         return NOTHING
     stated: dict[str, Spellable | None] = {"pos": inertial.origin.xyz, "mass": inertial.mass}
     tensor, turn = accepted_inertia(link), inertial.origin.rpy
     if not (tensor.ixy or tensor.ixz or tensor.iyz):
-        euler = None if turn == _NO_TURN else turn
+        euler = None if turn == NO_TURN else turn
         moments = (tensor.ixx, tensor.iyy, tensor.izz)
         return leaf_at("inertial", inertial.source, **stated, euler=euler, diaginertia=moments)
     # MuJoCo refuses an orientation together with products of inertia.

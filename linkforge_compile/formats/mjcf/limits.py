@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.diagnostics.codes.formats import (
     IMPOSSIBLE_FOR_MUJOCO,
     MASSLESS_IN_MUJOCO,
     MESH_FOR_MUJOCO,
     NESTED_TOO_DEEP,
+    NO_GAIN,
     NOT_IN_MJCF,
+    ONE_ACTUATOR,
+    OPPOSITE_SIGN,
     WORLD_BELOW_JOINT,
 )
+from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
 from linkforge_compile.formats.mjcf.meshes import mesh_files
+from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
 from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree, accepted_inertia, massless_movers
+from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.joint import Joint
+    from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.source import SourceRef
 
 MAX_DEPTH = 490
 """MuJoCo's reader of XML refuses elements that are nested deeper than 500."""
@@ -33,10 +40,16 @@ def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     for node in tree.nodes:
         if node.joint and node.link.name == WORLD:
             yield WORLD_BELOW_JOINT.at(node.link.source, name=WORLD)
+    if is_free and robot.has_link(WORLD):
+        yield NOT_IN_MJCF.at(robot.links[WORLD].source, parts="free joint for the world", name=WORLD)
     for link in massless_movers(robot, tree, is_free=is_free):
         yield MASSLESS_IN_MUJOCO.at(link.source, link=link.name)
     yield from check_inertials(robot)
     yield from check_meshes(robot)
+    yield from check_actuators(robot)
+    for sensor in robot.sensors:
+        if has_opposite_sign(sensor):
+            yield OPPOSITE_SIGN.at(sensor.source, "force_torque", sensor=sensor.name)
     yield from check_lost_parts(robot)
 
 
@@ -58,34 +71,51 @@ def check_meshes(robot: Robot) -> Iterator[Diagnostic]:
             yield MESH_FOR_MUJOCO.at(mesh.source, "file", file=mesh.resource, reason=fault)
 
 
+def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
+    """A joint has one actuator, and its gain is not in the URDF."""
+    for drive in drives(robot):
+        where, name, interface = drive.hardware.source, drive.joint.name, str(drive.interface)
+        if drive.others:
+            others = " and ".join(f"'{other}'" for other in drive.others)
+            yield ONE_ACTUATOR.at(where, "command_interfaces", joint=name, interface=interface, others=others)
+        if not has_gain(drive):
+            yield NO_GAIN.at(where, "command_interfaces", joint=name, interface=interface, gain=GAINS[interface])
+
+
 def check_lost_parts(robot: Robot) -> Iterator[Diagnostic]:
     """Yield the parts of a robot for which MJCF has no element."""
     for what, name, source, path in _lost_parts(robot):
         yield NOT_IN_MJCF.at(source, *path, parts=what, name=name)
 
 
-def _lost_parts(robot: Robot) -> Iterator[tuple[str, str, SourceRef | None, tuple[str, ...]]]:
-    """Yield the kind of each such part, its name, and its place."""
-    for joint in robot.joints:
-        if joint.safety_controller:
-            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
+Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str, ...]]
+"""What kind of part is left out, the name of the part, and its place."""
+
+
+def _lost_parts(robot: Robot) -> Iterator[Loss]:
+    for sensor in robot.sensors:
+        if loss := sensor_loss(sensor):
+            yield loss, sensor.name, sensor.source, ("type",)
     for transmission in robot.transmissions:
         yield "transmissions", transmission.name, transmission.source, ()
     for block in robot.gazebo_elements:
         yield "settings for Gazebo", block.reference or robot.name, block.source, ()
-    if robot.extra_elements:
-        yield "raw XML of a URDF", robot.name, robot.source, ("extra",)
-    for link in robot.links:
-        if link.extra_elements:
-            yield "raw XML of a URDF", link.name, link.source, ("extra",)
-        for visual in link.visuals:
-            if visual.material and visual.material.texture:
-                yield (
-                    "textures on single shapes",
-                    visual.material.name or link.name,
-                    visual.material.source,
-                    ("texture",),
-                )
     for joint in robot.joints:
-        if joint.extra_elements:
-            yield "raw XML of a URDF", joint.name, joint.source, ("extra",)
+        if joint.safety_controller:
+            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
+    yield from _lost_textures(robot)
+    yield from _lost_xml(robot)
+
+
+def _lost_textures(robot: Robot) -> Iterator[Loss]:
+    for link in robot.links:
+        for material in (visual.material for visual in link.visuals):
+            if material and material.texture:
+                yield "textures on single shapes", material.name or link.name, material.source, ("texture",)
+
+
+def _lost_xml(robot: Robot) -> Iterator[Loss]:
+    parts: tuple[Robot | Link | Joint, ...] = (robot, *robot.links, *robot.joints)
+    for part in parts:
+        if part.extra_elements:
+            yield "raw XML of a URDF", part.name, part.source, ("extra",)
