@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, Severity
-
-if TYPE_CHECKING:
-    from linkforge_compile.core import Robot
 
 
 class CompileError(Exception):

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks import check
 from linkforge_compile.compilation import Compilation, CompileError
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
@@ -29,6 +30,7 @@ from linkforge_compile.expand import (
     is_xacro,
 )
 from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
+from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
@@ -36,10 +38,8 @@ from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
-    from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics.reports import Suppression
     from linkforge_compile.expand.listing import Listing
-    from linkforge_compile.formats.urdf import Gazebo
 
 __all__ = [
     "CliArgument",

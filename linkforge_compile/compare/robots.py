@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.fields import compared_fields, compared_value, key_of_field
@@ -55,7 +54,7 @@ def _section(robot: Robot, field: str, renames: Renames) -> object:
         semantic = robot.semantic
         # It repeats the robot's name, whose change is reported once.
         is_repeated = semantic.robot_name == robot.name
-        return apply_renames(replace(semantic, robot_name="") if is_repeated else semantic, renames)
+        return apply_renames(semantic.with_fields(robot_name="") if is_repeated else semantic, renames)
     section = compared_value(robot, field)
     return apply_renames(tuple(section), renames) if isinstance(section, tuple) else section
 

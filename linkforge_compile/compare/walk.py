@@ -279,7 +279,7 @@ def _stated_fields(part: object) -> tuple[str, ...]:
         case TransmissionJoint() | TransmissionActuator():
             return (*part.stated, "hardware_interfaces") if part.interfaces_stated else tuple(part.stated)
         case Robot():
-            return ("version",) if part.version_stated else ()
+            return ("version",) if part.is_version_written else ()
     return ()
 
 

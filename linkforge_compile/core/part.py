@@ -1,18 +1,19 @@
 """Base classes of the model: frozen parts, elements with raw XML, and mappings that cannot be changed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cache
 from operator import is_
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, NoReturn, Self, TypeAlias, TypeVar
 
+import yaml
+
 from linkforge_compile.core.fields import (
     Child,
     Name,
     Reference,
     Spec,
+    Text,
     check_numbers,
     container_fields,
     field_specs,
@@ -21,29 +22,24 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.naming import prefixed_topic
 from linkforge_compile.source import Sourced, SourceRef
 
+# The annotations of the model's classes are objects and not texts (`from __future__ import annotations`): the
+# constructor of a derived class repeats them in a module that lacks these names, and libraries read them there.
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+
 class Part(Sourced):
-    """A frozen value; since nothing in it changes, a copy of it is the part itself."""
-
-    def __init_subclass__(cls) -> None:
-        # dataclasses puts inherited fields first, but `fields` and `astuple` have to begin with LinkForge's fields:
-        # those of the class itself, none of which is keyword-only. With `slots=True`, dataclass makes each class a
-        # second time, and that one has its fields by now.
-        if fields := vars(cls).get("__dataclass_fields__"):
-            cls.__dataclass_fields__ = dict(sorted(fields.items(), key=lambda item: item[1].kw_only is True))
-
-    def __copy__(self) -> Self:
-        return self
-
-    def __deepcopy__(self, memo: object) -> Self:
-        return self
+    """A frozen value."""
 
     if TYPE_CHECKING:
         # dataclass makes both. Without `__eq__`, mypy reports `name in robot.joints` as a comparison that is never
         # true, because the items of a NamedTable are parts, and not names.
         def __eq__(self, other: object) -> bool: ...
         def __hash__(self) -> int: ...
+
+    def with_fields(self, **changed: Any) -> Self:  # Any: each field has a type of its own
+        """Return the part with these fields changed, and its `source`, which `dataclasses.replace` does not keep."""
+        part = replace(self, **changed)  # type: ignore[type-var]  # every derived class is a dataclass
+        set_field(part, "source", self.source)
+        return part
 
     def with_prefix(self, prefix: str) -> Self:
         """Return the part with the prefix before its names; itself where it has none. An empty name stays so.
@@ -53,7 +49,7 @@ class Part(Sourced):
 
         """
         changed = prefixed_fields(self, prefix)
-        return replace(self, **changed) if changed else self
+        return self.with_fields(**changed) if changed else self
 
 
 def prefixed_fields(part: object, prefix: str) -> dict[str, Any]:  # Any: names, parts, sequences and mappings of them
@@ -101,26 +97,30 @@ def _put_prefix(prefix: str, value: Any) -> Any:
 
 _NOTHING: Final = ()
 
+C = TypeVar("C")
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Element(Part):
-    """A part that becomes an XML element.
 
-    `extra_attributes` are (name, value) pairs and `extra_elements` the texts of child elements that no field covers;
-    they are written unchanged and take no prefix. `extra_inside` has the same for child elements that have no class of
-    their own. They are compared, but not shown by `repr`.
+def extras_last(kind: type[C]) -> type[C]:
+    """Put the keyword-only fields of a dataclass, such as those for raw XML, behind LinkForge's, for `fields`.
+
+    The fields that a class inherits come first otherwise.
     """
+    fields: dict[str, Any] = vars(kind)["__dataclass_fields__"]
+    for name in [name for name, each in fields.items() if each.kw_only is True]:
+        fields[name] = fields.pop(name)
+    return kind
 
-    TAG: ClassVar[str] = ""
-    """The tag of the element; empty where it depends on what holds the part."""
-    ATTRIBUTE_ORDER: ClassVar[tuple[str, ...]] = ()
-    """The attributes as they are written in XML; empty where their order is that of the fields."""
-    NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
-    """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
+
+@dataclass(frozen=True, kw_only=True)
+class WithExtras(Part):
+    """What elements have in common: attributes and child elements that no field covers.
+
+    `extra_attributes` are (name, value) pairs and `extra_elements` texts of XML; they are written unchanged and take
+    no prefix. They are compared, but not shown by `repr`.
+    """
 
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False)
     extra_elements: Sequence[str] = field(default=(), repr=False)
-    extra_inside: Sequence[Inside] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         """Make tuples of sequences, FrozenMaps of mappings and vectors of lists of numbers; then check the values."""
@@ -142,22 +142,36 @@ class Element(Part):
         check_numbers(self)
 
 
-@dataclass(frozen=True, slots=True)
-class Inside(Element):
+@extras_last
+@dataclass(frozen=True)
+class Inside(WithExtras):
     """Raw XML of a child element that has no class of its own, such as `<parent>` of a joint.
 
     `tag` is its tag. `name` tells several of one tag apart: the attribute `name` or `link`, or the text, of a
     `<joint name>` of a group or a `<param name>`; None where there is only one.
     """
 
-    tag: str
+    tag: Annotated[str, Text(xml="name()")]
     name: Annotated[str | None, Reference("part")] = None
+    extra_inside: "Sequence[Inside]" = field(default=(), repr=False, kw_only=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Element(WithExtras):
+    """A part that becomes an XML element; `extra_inside` has the extras of child elements without a class."""
+
+    TAG: ClassVar[str] = ""
+    """The tag of the element; empty where it depends on what holds the part."""
+    ATTRIBUTE_ORDER: ClassVar[tuple[str, ...]] = ()
+    """The attributes as they are written in XML; empty where their order is that of the fields."""
+    NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False
+    """Whether the names in `extra_inside` are those of links, joints and groups, which take a prefix."""
+
+    extra_inside: Sequence[Inside] = field(default=(), repr=False)
 
 
 class Stating:
     """Adds `is_written` to a part whose `stated` names fields that are written with their default."""
-
-    __slots__ = ()
 
     def is_written(self, name: str) -> bool:
         """Whether a field becomes a tag: it differs from its default, or is stated."""
@@ -181,9 +195,20 @@ def set_field(part: Part, name: str, value: object) -> None:
 K = TypeVar("K")
 V = TypeVar("V")
 
-FreePart: TypeAlias = "str | Mapping[str, FreePart] | Sequence[FreePart]"
+if TYPE_CHECKING:
+    FreePart: TypeAlias = "str | Mapping[str, FreePart] | Sequence[FreePart]"
+else:
+    FreePart = Any  # until Python 3.12 there is no recursive type that libraries know
 """What a plugin reads from an element: its text; or its children by tag, where a key `_x` is its attribute `x` and
 `_text` its text; or, for a tag that repeats, one of these for each element."""
+
+
+def dump_like(kind: type, standard: type) -> None:
+    """Let `yaml.safe_dump` write objects of a class as those of its base: dict, list or str.
+
+    It refuses all classes that are not registered, even derived ones.
+    """
+    yaml.SafeDumper.add_representer(kind, yaml.SafeDumper.yaml_representers[standard])
 
 
 class FrozenMap(dict[K, V]):
@@ -194,20 +219,23 @@ class FrozenMap(dict[K, V]):
     def __hash__(self) -> int:  # type: ignore[override]  # dict sets it to None
         return hash(frozenset(self.items()))
 
-    def __or__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # dict accepts only dicts
+    def __or__(self, other: Mapping[K, V]) -> "FrozenMap[K, V]":  # type: ignore[override]  # dict accepts only dicts
         return FrozenMap({**self, **other})
 
-    def __ror__(self, other: Mapping[K, V]) -> FrozenMap[K, V]:  # type: ignore[override]  # as above
+    def __ror__(self, other: Mapping[K, V]) -> "FrozenMap[K, V]":  # type: ignore[override]  # as above
         return FrozenMap({**other, **self})
 
-    def __reduce__(self) -> tuple[type[FrozenMap[K, V]], tuple[dict[K, V]]]:
-        return FrozenMap, (dict(self),)
+    def __reduce__(self) -> tuple[type[Self], tuple[dict[K, V]]]:
+        return type(self), (dict(self),)
 
     def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise TypeError("a FrozenMap cannot be changed")
 
     if not TYPE_CHECKING:  # mypy refuses a dict without these
         __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+
+
+dump_like(FrozenMap, dict)
 
 
 def frozen(value: object) -> object:
@@ -228,13 +256,13 @@ class RawXml(str):
 
     source: SourceRef | None
 
-    def __new__(cls, text: str, source: SourceRef | None = None) -> RawXml:
+    def __new__(cls, text: str, source: SourceRef | None = None) -> Self:
         raw = super().__new__(cls, text)
         raw.source = source
         return raw
 
-    def __deepcopy__(self, memo: object) -> RawXml:
-        return self
-
     def __reduce__(self) -> tuple[object, ...]:
-        return RawXml, (str(self), self.source)
+        return type(self), (str(self), self.source)
+
+
+dump_like(RawXml, str)

@@ -273,7 +273,7 @@ def _sum(tensors: Sequence[InertiaTensor]) -> InertiaTensor:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Solid:
     """A shape that holds a volume, in a frame of its own.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import KW_ONLY, dataclass, field
 from itertools import islice
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -32,6 +33,7 @@ class IResourceResolver(Protocol):
         ...
 
 
+@dataclass(eq=False)
 class FileSystemResolver:
     """Finds `package://`, `file://`, absolute and relative paths in the file system.
 
@@ -42,16 +44,10 @@ class FileSystemResolver:
     Relative paths are looked for in `relative_to`, then in the current folder.
     """
 
-    def __init__(
-        self,
-        additional_search_paths: list[Path] | None = None,
-        *,
-        packages: Mapping[str, Path] | None = None,
-        roots: Roots = ANYWHERE,
-    ) -> None:
-        self._roots = roots
-        self.additional_search_paths = additional_search_paths
-        self.packages = dict(packages or {})
+    additional_search_paths: list[Path] | None = None
+    _: KW_ONLY
+    packages: Mapping[str, Path] = field(default_factory=dict)
+    roots: Roots = ANYWHERE
 
     def resolve(self, uri: str, relative_to: Path | None = None) -> Path:
         """Return the absolute path of an existing file or folder.
@@ -87,7 +83,7 @@ class FileSystemResolver:
                 yield Path(folder)
         start = Path(identity(start))
         for folder in islice((start, *start.parents), _LEVELS_UP):
-            if folder.name == package or package_name(folder, self._roots) == package:
+            if folder.name == package or package_name(folder, self.roots) == package:
                 yield folder
 
 

@@ -104,7 +104,7 @@ class SpecBuilder:
 
     def element(self, part: Extended, /, **entries: YamlNode | None) -> YamlMap:
         """Return the object of a part: these entries, then its extras."""
-        inside = part.extra_inside if isinstance(part, Element | Interface) else ()
+        inside = part.extra_inside if isinstance(part, Element | Inside | Interface) else ()
         inside_nodes = ((_tag(one), self.element(one)) for one in inside)
         node = self.map_of(
             {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
@@ -168,7 +167,7 @@ def _key_field(kind: type) -> str | None:
 def export_plugin(builder: SpecBuilder, plugin: GazeboPlugin, *, is_named: bool) -> YamlMap:
     """Return a plugin, with its name if it `is_named` by no key; content that was read as XML becomes `extra`."""
     if plugin.raw_xml is not None:
-        plugin = replace(plugin, parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
+        plugin = plugin.with_fields(parameters={}, extra_elements=(plugin.raw_xml, *plugin.extra_elements))
     name = {"name": builder.text(plugin.name)} if is_named else {}
     return builder.element(plugin, **name, **export_fields(builder, plugin))
 

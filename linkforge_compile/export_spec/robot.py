@@ -36,7 +36,7 @@ def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
         robot,
         linkforge=builder.number(_LANGUAGE_VERSION),
         name=builder.text(robot.name),
-        version=builder.text(robot.version) if robot.version_stated else None,
+        version=builder.text(robot.version) if robot.is_version_written else None,
         description=_description(builder, robot),
         metadata=builder.data(robot.metadata) if robot.metadata else None,
         materials=builder.named(

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
 from linkforge_compile.formats.mjcf import Mjcf
+from linkforge_compile.formats.source_map import Mapped
 from linkforge_compile.formats.srdf import Srdf
-from linkforge_compile.formats.urdf import Urdf
+from linkforge_compile.formats.urdf import Gazebo, Urdf
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
-
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.formats.format import Templates
-    from linkforge_compile.formats.source_map import Mapped
-    from linkforge_compile.formats.urdf import Gazebo
     from linkforge_compile.formats.user_templates import TemplateFolder
 
 __all__ = [
@@ -83,7 +80,7 @@ def render_urdf(
     pretty: bool = True,
     banner: str | None = None,
     gazebo: Gazebo = "gz",
-    templates: Templates = None,
+    templates: str | Path | None = None,
 ) -> str:
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 
@@ -100,7 +97,9 @@ def render_urdf(
     return URDF.render(robot, Rendering({"gazebo": gazebo}, pretty, banner, templates))[0].text
 
 
-def render_srdf(robot: Robot, *, pretty: bool = True, banner: str | None = None, templates: Templates = None) -> str:
+def render_srdf(
+    robot: Robot, *, pretty: bool = True, banner: str | None = None, templates: str | Path | None = None
+) -> str:
     """Return the robot's semantic part as an SRDF document, sections in the order of MoveIt's own writer.
 
     `pretty` indents by two spaces; without it the document is one line. `banner` becomes a comment at the top, None

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.geometry import Material, Transform
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
@@ -132,27 +133,15 @@ def _report(prefixes: Iterable[str], where: SourceRef | None, *path: str | int) 
         yield UNDECLARED_PREFIX.at(where, *path, prefix=prefix)
 
 
-_ONE_OF: Mapping[type[Part], Mapping[str, str]] = {
-    Link: {"inertial": "inertial"},
-    Inertial: {"origin": "origin", "mass": "mass", "inertia": "inertia"},
-    Visual: {"origin": "origin", "geometry": "geometry", "material": "material"},
-    Collision: {"origin": "origin", "geometry": "geometry"},
-    Material: {"color": "color", "texture": "texture"},
-    Joint: {
-        "origin": "origin",
-        "parent": "parent",
-        "child": "child",
-        "axis": "axis",
-        "limit": "limits",
-        "dynamics": "dynamics",
-        "mimic": "mimic",
-        "safety_controller": "safety_controller",
-        "calibration": "calibration",
-    },
-    Ros2Control: {"hardware": "hardware_plugin"},
-    Transmission: {"type": "type"},
-}
-"""The tags of which a part has one at most, and the field that writes it."""
+def _fields_by_tag(kind: type) -> Mapping[str, str]:
+    """Return the field of a class that writes each tag of which its element has one at most."""
+    paths = {name: spec.xml or "" for name, spec in field_specs(kind).items() if not spec.container}
+    return {path.partition("/")[0]: name for name, path in paths.items() if path and path[0] not in "@."}
+
+
+_WITH_SINGLE_CHILDREN = (Link, Inertial, Visual, Collision, Material, Joint, Ros2Control, Transmission)
+
+_ONE_OF: Mapping[type[Part], Mapping[str, str]] = {kind: _fields_by_tag(kind) for kind in _WITH_SINGLE_CHILDREN}
 
 
 def written_twice(parts: Iterable[Held]) -> Iterator[Diagnostic]:

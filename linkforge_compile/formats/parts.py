@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import Field, fields
+from collections.abc import Callable
 from functools import cache
-from itertools import chain
 from operator import attrgetter
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.core.fields import Flag, Number, Spec, Vector, field_specs
+from linkforge_compile.core.fields import Number, Vector, field_specs
 from linkforge_compile.core.models.link import Link, LinkPhysics
 from linkforge_compile.core.models.ros2_control import Interface
-from linkforge_compile.core.part import Element
 from linkforge_compile.core.part import Part as BasePart
+from linkforge_compile.core.part import WithExtras
 from linkforge_compile.formats.element import inside_of
 from linkforge_compile.formats.xml_text import is_writable
 from linkforge_compile.source import SourceRef
@@ -22,7 +20,7 @@ from linkforge_compile.source import SourceRef
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-Part: TypeAlias = Element | Link | Interface
+Part: TypeAlias = WithExtras | Link | Interface
 """What becomes an XML element, and may hold what no field says."""
 
 
@@ -65,59 +63,18 @@ def doubtful_parts_in(*sections: object) -> Doubtful:
     """
     found = Doubtful([], [])
     for section in sections:
-        if not _are_plain((section,)):
-            _gather(section, None, (), found)
+        _gather(section, None, (), found)
     return found
-
-
-def _are_plain(values: Collection[object]) -> bool:
-    """Whether there is certainly no doubtful part in values of any classes.
-
-    Those of a class are asked together, and then the values of each of its fields: a tenth of the walk through all.
-    """
-    return all(_are_plain_of(kind, values) for kind in set(map(type, values)))
-
-
-def _are_plain_of(kind: type, values: Collection[object]) -> bool:
-    """Answer for those of the values that are of a class."""
-    if issubclass(kind, _PARTS):
-        return _are_plain_parts([value for value in values if value.__class__ is kind and isinstance(value, _PARTS)])
-    if issubclass(kind, str):
-        return "".join([value for value in values if isinstance(value, str)]).isprintable()
-    if issubclass(kind, tuple):
-        collections = [value for value in values if isinstance(value, tuple)]
-        return _are_plain(list(chain.from_iterable(collections)))
-    return issubclass(kind, _WITHOUT_TEXT) or all(
-        _is_surely_writable(value) for value in values if value.__class__ is kind
-    )
-
-
-def _are_plain_parts(parts: Sequence[Part]) -> bool:
-    kind: type = parts[0].__class__
-    names, values_of, extras_of = _ways_into(kind)
-    if any(map(any, map(extras_of, parts))):
-        return False
-    columns = zip(*map(values_of, parts), strict=True) if names else ()
-    return all(
-        _are_plain(column) and not (name == RAW_XML and any(column))
-        for name, column in zip(names, columns, strict=True)
-    )
 
 
 def _gather(value: object, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
     if isinstance(value, _PARTS):
         _gather_part(value, where, around, found)
-    elif isinstance(value, tuple):  # before what is asked of base classes, which takes long
+    elif isinstance(value, list | tuple):
         for inner in value:
             _gather(inner, where, around, found)
-    elif isinstance(value, _HOLD_NONE):
-        return
-    elif isinstance(value, Mapping):
-        for inner in value.values():
-            _gather(inner, where, around, found)
-    elif isinstance(value, Sequence):
-        for inner in value:
-            _gather(inner, where, around, found)
+    elif isinstance(value, dict):
+        _gather(tuple(value.values()), where, around, found)
 
 
 def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], found: Doubtful) -> None:
@@ -129,7 +86,7 @@ def _gather_part(part: Part, where: SourceRef | None, around: tuple[Part, ...], 
     inside: list[object] = []
     doubtful: list[tuple[str, object]] = []
     for name, value in zip(names, values_of(part), strict=True):
-        if isinstance(value, Element):
+        if isinstance(value, WithExtras):
             inside.append(value)
         elif value:
             if name == RAW_XML or not _is_surely_writable(value):
@@ -155,16 +112,15 @@ def _is_surely_writable(value: object) -> bool:
         return value.isprintable() or is_writable(value)
     if isinstance(value, LinkPhysics):
         return type(value.self_collide) is type(value.gravity) is bool
-    return isinstance(value, BasePart) or (isinstance(value, tuple) and all(map(_is_surely_writable, value)))
+    if isinstance(value, tuple):
+        return all(map(_is_surely_writable, value))
+    return isinstance(value, _WITHOUT_TEXT)
 
 
 # A union takes three times as long to ask.
-_PARTS = (Element, Link, Interface)
+_PARTS = (WithExtras, Link, Interface)
 
-_WITHOUT_TEXT = (float, int, NoneType)
-
-# What is neither one of them nor a collection.
-_HOLD_NONE = (str, BasePart)
+_WITHOUT_TEXT = (BasePart, int, float, NoneType)
 
 RAW_XML = "raw_xml"
 """The field of a plugin that is XML, and not text."""
@@ -178,30 +134,18 @@ def _ways_into(kind: type) -> tuple[tuple[str, ...], _Values, _Values]:
 
     Half of the parts are of a class without such a field.
     """
-    if issubclass(kind, Element | Link):
-        specs = field_specs(kind)
-        own = (field for field in fields(kind) if field.name not in _EVERYWHERE)
-        names = tuple(field.name for field in own if not _holds_numbers(field, specs.get(field.name)))
+    if issubclass(kind, Interface):
+        names: tuple[str, ...] = ("parameters",)
     else:
-        names = ("parameters",)
+        specs = field_specs(kind).items()
+        names = tuple(name for name, spec in specs if spec.xml and not isinstance(spec, Number | Vector))
+        names += tuple(name for name in (RAW_XML,) if hasattr(kind, name))
     extras = tuple(name for name in _EXTRAS if hasattr(kind, name))
     return names, _getter(names), _getter(extras)
-
-
-def _holds_numbers(field: Field[object], spec: Spec | None) -> bool:
-    """Whether a field holds neither parts nor text: its class refuses them, or it only records a spelling."""
-    if isinstance(spec, Flag) or field.type == "bool":
-        return not field.compare
-    return isinstance(spec, Number | Vector) or _NUMBERS.issuperset(str(field.type).split(" | "))
 
 
 def _getter(names: tuple[str, ...]) -> _Values:
     return attrgetter(*names) if len(names) > 1 else lambda part: tuple([getattr(part, name) for name in names])
 
 
-_NUMBERS = frozenset({"float", "int", "Vector3", "None"})
-"""What constructors refuse anything else for; a truth is taken as it comes, and written."""
-
 _EXTRAS = ("extra_attributes", "extra_elements", "extra_inside")
-
-_EVERYWHERE = frozenset(field.name for field in fields(Element))

@@ -9,7 +9,7 @@ from functools import partial
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.link import LinkPhysics
-from linkforge_compile.core.part import Element, attribute_pairs
+from linkforge_compile.core.part import WithExtras, attribute_pairs
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import UNWRITABLE
 from linkforge_compile.formats.element import (
@@ -50,7 +50,7 @@ def _in_field(part: Part, name: str, value: object, where: SourceRef | None) -> 
         from linkforge_compile.formats.raw import raw_elements
 
         yield from refused(lambda: raw_elements(value), where, name)
-    elif isinstance(value, Mapping) and isinstance(part, Element) and field_specs(type(part))[name].xml == "*":
+    elif isinstance(value, Mapping) and isinstance(part, WithExtras) and field_specs(type(part))[name].xml == "*":
         from linkforge_compile.formats.element import is_surely_writable, parameter_elements
 
         # A plugin's raw XML stands in place of its parameters.
@@ -67,7 +67,7 @@ def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Di
     if isinstance(value, str):
         if not is_writable(value):
             yield from refused(partial(require_writable, value), where, *path)
-    elif isinstance(value, Element):
+    elif isinstance(value, WithExtras):
         return
     elif isinstance(value, LinkPhysics):
         # No element of its own, and its constructor takes its truths as they come.

@@ -100,7 +100,7 @@ def _add_group_states(
         unresolved=unresolved,
     )
     states = resolve_states(written, scope)
-    robot.semantic = replace(semantic, group_states=(*states, *semantic.group_states))
+    robot.semantic = semantic.with_fields(group_states=(*states, *semantic.group_states))
     return unresolved_of({state.name for state in written} - {state.name for state in states})
 
 

@@ -25,7 +25,7 @@ from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
 from linkforge_compile.lower.elements import (
     EXTRA_KEYS,
-    common_kwargs,
+    extras_of,
     free_elements,
     is_absent,
     lower_element,
@@ -151,7 +151,7 @@ def _lower_interfaces(fields: Fields, key: str) -> tuple[Interface, ...]:
     if isinstance(fields.get(key), YamlMap):
 
         def lower(each: Fields, name: str) -> Interface:
-            return Interface(name, texts_in(each, *EXTRA_KEYS), **common_kwargs(each))
+            return Interface(name, texts_in(each, *EXTRA_KEYS), source=each.ref, **extras_of(each))
 
         return tuple(_lowered(fields.each(key, "interface", lower)))
     named = fields.named_items(key)

@@ -50,8 +50,8 @@ def lower_element(
         values["stated"] = [
             name for name, spec in specs if values[name] == spec.implied and fields.node.get(name) is not None
         ]
-    common: Any = common_kwargs(fields) if issubclass(kind, Element) else {"source": fields.ref}
-    return fields.build(lambda: kind(**values, **common))
+    extras: Any = extras_of(fields) if issubclass(kind, Element) else {}
+    return fields.build(lambda: kind(**values, **extras).with_source(fields.ref))
 
 
 def lower_fields(
@@ -85,13 +85,15 @@ def lower_pose(fields: Fields, key: str = "origin") -> Transform:
         return IDENTITY
     if isinstance(node, YamlList):
         xyz = fields.vector3_at(node, key, LENGTH)
-        return Transform(xyz, is_stated=True, source=SourceRef(node, None, fields.trail)) if xyz else IDENTITY
+        source = SourceRef(node, None, fields.trail)
+        return Transform(xyz, is_stated=True).with_source(source) if xyz else IDENTITY
     pose = fields.map_at(node, key)
     if pose is None:
         return IDENTITY
     xyz, rpy = pose.vector3("xyz", LENGTH), pose.vector3("rpy", ANGLE)
     is_stated = bool(xyz or rpy) or pose.get("xyz") is not None or pose.get("rpy") is not None
-    return Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **common_kwargs(pose))
+    transform = Transform(xyz or IDENTITY.xyz, rpy or IDENTITY.rpy, is_stated=is_stated, **extras_of(pose))
+    return transform.with_source(pose.ref)
 
 
 def _number(spec: Number, key: str, fields: Fields, motion: Motion, unit: FieldUnit | None) -> float | None:
@@ -191,23 +193,22 @@ class OuterExtras(TypedDict):
     extra_attributes: tuple[tuple[str, str], ...]
 
 
-class CommonKwargs(TypedDict):
-    """The keyword arguments of every element: where it was written, and its raw XML if it has any."""
+class Extras(TypedDict):
+    """Raw XML of an element, if it has any."""
 
-    source: SourceRef
     extra_elements: NotRequired[tuple[str, ...]]
     extra_attributes: NotRequired[tuple[tuple[str, str], ...]]
     extra_inside: NotRequired[tuple[Inside, ...]]
 
 
-def common_kwargs(fields: Fields) -> CommonKwargs:
-    """Return the keyword arguments that the constructor of every element accepts.
+def extras_of(fields: Fields) -> Extras:
+    """Read the raw XML of an element.
 
     Formats check the raw XML, because it depends on them how it is written.
     """
     if EXTRA_KEYS.isdisjoint(fields.node.entries):
-        return {"source": fields.ref}
-    return {"source": fields.ref, **outer_extras_of(fields), "extra_inside": tuple(_insides(fields))}
+        return {}
+    return {**outer_extras_of(fields), "extra_inside": tuple(_insides(fields))}
 
 
 def outer_extras_of(fields: Fields) -> OuterExtras:
@@ -227,7 +228,7 @@ def _insides(fields: Fields) -> Iterator[Inside]:
     for key, inside in fields.each("extra_inside", "element", lambda inside, _: inside):
         tag, _, name = key.partition(" ")
         if inside:
-            yield Inside(tag, name.strip() or None, **common_kwargs(inside))
+            yield Inside(tag, name.strip() or None, **extras_of(inside)).with_source(inside.ref)
 
 
 def free_elements(fields: Fields, key: str) -> dict[str, FreePart]:

@@ -68,9 +68,9 @@ def lower_file(
         joints=[joint for joint in joints.values() if joint],
         **_devices_of(file),
         semantic=semantic.description if semantic else None,
-        source=SourceRef(tree, tree.get("name"), trail),
         **outer_extras_of(file),
     )
+    robot.source = SourceRef(tree, tree.get("name"), trail)
     faulty = [name for parts in (links, joints) for name, part in parts.items() if part is None]
     unresolved = _unresolved_names(tree, faulty)
     if semantic:
@@ -170,7 +170,7 @@ def _lower_frame(fields: Fields, name: str) -> _Frame:
         is_valid = False
     ends = JointEnds(fields.text("parent", required="base"), name, lower_pose(fields))
     joint = joint_between(fields, joint_name if is_valid else None, JointType.FIXED, ends)
-    return _Frame(name, joint_name, Link(name, source=fields.ref) if joint else None, joint)
+    return _Frame(name, joint_name, Link(name).with_source(fields.ref) if joint else None, joint)
 
 
 def _add_frame(

@@ -16,7 +16,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_AXIS,
     ZERO_AXIS,
 )
-from linkforge_compile.lower.elements import common_kwargs, lower_element, lower_fields, lower_pose
+from linkforge_compile.lower.elements import extras_of, lower_element, lower_fields, lower_pose
 from linkforge_compile.lower.fields import Fields, by_word
 from linkforge_compile.lower.numbers import (
     ANGLE_OR_LENGTH,
@@ -89,7 +89,7 @@ def joint_between(fields: Fields, name: str | None, joint_type: JointType | None
         if name is None or parent is None or child is None or parent == child:
             return None
         parts = (_SUBSTITUTE_TYPE, parent, child, origin, _SUBSTITUTE_AXIS, SUBSTITUTE_LIMITS)
-        return fields.build(lambda: Joint(name, *parts, source=fields.ref))
+        return fields.build(lambda: Joint(name, *parts).with_source(fields.ref))
     axis, axis_as_written = _lower_axis(fields, joint_type)
     if name is not None and parent is not None and parent == child:
         fields.report(JOINT_TO_ITSELF, fields.node.get("child") or fields.ref, owner=fields.title, link=child)
@@ -159,7 +159,7 @@ def _lower_limits(fields: Fields, joint_type: JointType | None, motion: Motion) 
     if joint_type is JointType.CONTINUOUS:
         # It has no range; one that is written is reported, but not the substitute of a faulty one.
         values |= {name: None for name in ("lower", "upper") if values[name] in (-UNKNOWN, UNKNOWN)}
-    return limits.build(lambda: JointLimits(**values, **common_kwargs(limits)))
+    return limits.build(lambda: JointLimits(**values, **extras_of(limits)).with_source(limits.ref))
 
 
 def _report_crossed(limits: Fields) -> None:

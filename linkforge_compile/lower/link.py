@@ -35,7 +35,7 @@ from linkforge_compile.diagnostics.codes.model import (
     SHAPE_ORDER_COUNT,
     UNKNOWN_CHOICE,
 )
-from linkforge_compile.lower.elements import common_kwargs, lower_element, lower_pose, outer_extras_of
+from linkforge_compile.lower.elements import extras_of, lower_element, lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import EXTENT, EXTENT_OF_GROUND, NumberType
 from linkforge_compile.lower.shapes import FileScope, lower_geometry, lower_visual_material
@@ -66,16 +66,16 @@ def _lower_link(fields: Fields, name: str, scope: FileScope) -> Link | None:
     shape_order = _lower_shape_order(fields, visuals, collisions)
     if not is_valid:
         return None
-    return Link(
+    link = Link(
         name,
         inertial,
         lowered_physics or USUAL_PHYSICS,
         [visual for visual in visuals if visual],
         [collision for collision in collisions if collision],
         shape_order=shape_order,
-        source=_source_of(fields),
         **outer_extras_of(fields),
     )
+    return link.with_source(_source_of(fields))
 
 
 def _source_of(link: Fields) -> SourceRef:
@@ -120,7 +120,9 @@ def _lower_collisions(
         return [None]
     if not visuals and not link.is_faulty:
         link.report(COPY_OF_NOTHING, node, owner=link.title)
-    return [Collision(visual.geometry, visual.origin, source=visual.source) if visual else None for visual in visuals]
+    return [
+        Collision(visual.geometry, visual.origin).with_source(visual.source) if visual else None for visual in visuals
+    ]
 
 
 # The inertial
@@ -188,7 +190,7 @@ def _computed(
         if len(bodies) < len(shapes) or len(solids) < len(read) or (mass is None and density is None):
             return None
         computed = inertial_of_shapes(bodies, mass=mass, density=density, meshes=solids)
-        return replace(computed, **common_kwargs(inertial))
+        return replace(computed, **extras_of(inertial)).with_source(inertial.ref)
 
     return inertial.build(compute)
 

@@ -145,7 +145,7 @@ def inherit_mount(mount: ModuleJoint, prefix: str) -> ModuleJoint:
     """Return the mount of a module as that of the robot that uses it, if both have the same root link."""
     joint = mount.joint.with_prefix(prefix) if mount.joint else None
     # The parent is not in the module, so it keeps its name.
-    joint = replace(joint, parent=WORLD) if joint else None
+    joint = joint.with_fields(parent=WORLD) if joint else None
     return ModuleJoint(prefix + mount.name, joint, tuple(block.with_prefix(prefix) for block in mount.gazebo))
 
 
@@ -163,8 +163,8 @@ def attach_mount(mount: ModuleJoint, module: Instance, root: str | None, sink: D
     parent, origin = entry.text("parent"), lower_pose(entry)
     if parent is None or not _is_at_root(final, root, module.prefix, sink):
         return final._replace(joint=None)
-    joint = replace(final.joint, source=_with_ends_of(entry.node, final.joint.source))
-    return final._replace(joint=entry.build(lambda: replace(joint, parent=parent, origin=origin)))
+    joint = final.joint.with_source(_with_ends_of(entry.node, final.joint.source))
+    return final._replace(joint=entry.build(lambda: joint.with_fields(parent=parent, origin=origin)))
 
 
 def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:
@@ -186,7 +186,7 @@ def attach_to_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Di
     if (other := robot.joints.get(mount.name)) is not None:
         report_duplicate(sink, "joint", mount.name, mount.joint.source, other.source)
         return UnresolvedNames(frozenset([mount.name]))
-    world = robot.links.get(WORLD) or Link(WORLD, source=mount.joint.source)
+    world = robot.links.get(WORLD) or Link(WORLD).with_source(mount.joint.source)
     robot.links = (world, *(link for link in robot.links if link.name != WORLD))
     robot.joints = (mount.joint, *robot.joints)
     robot.gazebo_elements = (*mount.gazebo, *robot.gazebo_elements)
@@ -230,13 +230,12 @@ def without_virtual_joint(semantic: SemanticRobotDescription, joint: str, prefix
     empty, because other states may refer to it.
     """
     empty = _empty_groups(semantic.groups, joint)
-    remaining = replace(
-        semantic,
+    remaining = semantic.with_fields(
         virtual_joints=tuple(each for each in semantic.virtual_joints if each.name != joint),
         groups=tuple(_group_without(group, joint, empty) for group in semantic.groups if group.name not in empty),
         group_states=tuple(_state_without(state, joint) for state in semantic.group_states if state.group not in empty),
         end_effectors=tuple(
-            replace(effector, parent_group=None) if effector.parent_group in empty else effector
+            effector.with_fields(parent_group=None) if effector.parent_group in empty else effector
             for effector in semantic.end_effectors
             if effector.group not in empty
         ),
@@ -286,7 +285,7 @@ def _group_without(group: PlanningGroup, joint: str, empty: frozenset[str]) -> P
     subgroups = tuple(name for name in group.subgroups if name not in empty)
     removed = {*(("joint", name) for name in group.joints if name not in joints)}
     removed |= {("group", name) for name in group.subgroups if name not in subgroups}
-    return replace(group, joints=joints, subgroups=subgroups, extra_inside=_extras_without(group, removed))
+    return group.with_fields(joints=joints, subgroups=subgroups, extra_inside=_extras_without(group, removed))
 
 
 def _state_without(state: GroupState, joint: str) -> GroupState:
@@ -294,7 +293,7 @@ def _state_without(state: GroupState, joint: str) -> GroupState:
         return state
     kept = {name: position for name, position in state.joint_values.items() if name != joint}
     extras = _extras_without(state, {("joint", joint)})
-    return replace(state, joint_values=FrozenMap(kept), extra_inside=extras)
+    return state.with_fields(joint_values=FrozenMap(kept), extra_inside=extras)
 
 
 def _extras_without(part: PlanningGroup | GroupState, removed: Collection[tuple[str, str]]) -> tuple[Inside, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from graphlib import CycleError, TopologicalSorter
 from operator import attrgetter
@@ -32,7 +32,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_STATE,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
-from linkforge_compile.lower.elements import EXTRA_KEYS, common_kwargs, is_absent, lower_each, lower_element
+from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, is_absent, lower_each, lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import position_type
 from linkforge_compile.lower.numbers import LENGTH, NumberType
@@ -72,8 +72,8 @@ def lower_semantic(file: Fields) -> LoweredSemantic | None:
         no_default_collision_links=semantic.names("no_default_collision_links"),
         link_sphere_approximations=tuple(_lower_sphere_approximations(semantic)),
         joint_properties=tuple(_lower_joint_properties(semantic)),
-        **common_kwargs(semantic),
-    )
+        **extras_of(semantic),
+    ).with_source(semantic.ref)
     faulty = [name for name, part in (*groups.items(), *virtual_joints.items()) if part is None]
     return LoweredSemantic(description, tuple(written_states(semantic)), frozenset(faulty))
 
@@ -84,8 +84,7 @@ def group_by_name(semantic: SemanticRobotDescription) -> SemanticRobotDescriptio
     A spec nests them under that name; a module may add to a name of the file that uses it. Names keep the order of
     their first mention.
     """
-    return replace(
-        semantic,
+    return semantic.with_fields(
         group_states=_grouped(semantic.group_states, attrgetter("group")),
         disabled_collisions=_grouped(semantic.disabled_collisions, attrgetter("link1")),
         enabled_collisions=_grouped(semantic.enabled_collisions, attrgetter("link1")),
@@ -110,7 +109,8 @@ def _lower_group(fields: Fields, name: str) -> PlanningGroup | None:
         return None
     if not (chains or links or joints or subgroups):
         return None  # all its members are faulty
-    return fields.build(lambda: PlanningGroup(name, links, joints, chains, subgroups, **common_kwargs(fields)))
+    members = (links, joints, chains, subgroups)
+    return fields.build(lambda: PlanningGroup(name, *members, **extras_of(fields)).with_source(fields.ref))
 
 
 def _lower_passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
@@ -127,9 +127,9 @@ def _lower_passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
             continue
         if name in first:
             report_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
-        elif joint := item.build(partial(PassiveJoint, name, source=item.ref)):
+        elif joint := item.build(partial(PassiveJoint, name)):
             first[name] = item.ref
-            yield joint
+            yield joint.with_source(item.ref)
 
 
 def _lower_collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
@@ -159,7 +159,9 @@ def _lower_sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
     radius = sphere.number("radius", _RADIUS, required="0.1")
     if center is None or radius is None:
         return None
-    return sphere.build(lambda: SrdfSphere(center.x, center.y, center.z, radius, **common_kwargs(sphere)))
+    return sphere.build(
+        lambda: SrdfSphere(center.x, center.y, center.z, radius, **extras_of(sphere)).with_source(sphere.ref)
+    )
 
 
 def _lower_joint_properties(semantic: Fields) -> Iterator[JointProperty]:
@@ -248,9 +250,9 @@ def resolve_states(written: Sequence[WrittenState], scope: NamesInScope) -> list
         known = positions.get(state.key)
         if known is None:
             continue
-        make = partial(GroupState, state.name, state.group, known, **common_kwargs(state.fields))
+        make = partial(GroupState, state.name, state.group, known, **extras_of(state.fields))
         if resolved := state.fields.build(make):
-            states.append(resolved)
+            states.append(resolved.with_source(state.fields.ref))
     return states
 
 

@@ -29,7 +29,7 @@ from linkforge_compile.diagnostics.codes.model import (
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.uses import from_base, no_mesh
-from linkforge_compile.lower.elements import CommonKwargs, common_kwargs, lower_element
+from linkforge_compile.lower.elements import extras_of, lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lower.numbers import EXTENT, FRACTION, NumberType
@@ -81,19 +81,19 @@ def lower_geometry(shape: Fields, scope: FileScope, extent: NumberType = EXTENT)
 
 def _box(shape: Fields, node: YamlNode, extent: NumberType) -> Geometry | None:
     size = shape.vector3_at(node, "box", extent)
-    return None if size is None else Box(size, source=SourceRef(node, None, shape.trail))
+    return None if size is None else Box(size).with_source(SourceRef(node, None, shape.trail))
 
 
 def _sphere(shape: Fields, node: YamlNode, extent: NumberType) -> Geometry | None:
     radius = shape.number_at(node, "sphere", extent)
-    return None if radius is None else Sphere(radius, source=SourceRef(node, None, shape.trail))
+    return None if radius is None else Sphere(radius).with_source(SourceRef(node, None, shape.trail))
 
 
 def _mesh(shape: Fields, node: YamlNode, scope: FileScope) -> Geometry | None:
     if not isinstance(node, YamlMap):
         file = shape.text_at(node, "mesh")
         resource = None if file is None else _resource(shape, file, node, scope)
-        return None if resource is None else Mesh(resource, source=SourceRef(node, None, shape.trail))
+        return None if resource is None else Mesh(resource).with_source(SourceRef(node, None, shape.trail))
     mesh = shape.map_at(node, "mesh")
     if mesh is None:
         return None
@@ -190,8 +190,8 @@ def _lower_color(fields: Fields) -> Color | None:
     rgba = None if numbers is None else fields.numbers_at(numbers, "color", FRACTION, 3, 4)
     if node is None or rgba is None:
         return None
-    common: CommonKwargs = common_kwargs(long) if long else {"source": SourceRef(node, None, fields.trail)}
-    return fields.build(lambda: Color(*rgba, **common))
+    color = fields.build(lambda: Color(*rgba, **(extras_of(long) if long else {})))
+    return color.with_source(long.ref if long else SourceRef(node, None, fields.trail)) if color else None
 
 
 def _report_bytes(fields: Fields, numbers: YamlList) -> bool:

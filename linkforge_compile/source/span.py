@@ -6,11 +6,12 @@ Lines and columns count from 1, columns in characters.
 from __future__ import annotations
 
 from bisect import bisect_right
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, Self
 
 from linkforge_compile.source.characters import begins_xml, on_one_line
 
@@ -312,11 +313,17 @@ class SourceRef:
         return self
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Sourced:
-    """A frozen value with the place where it was written, which is neither compared nor hashed nor shown.
+    """A value with the place where it was written, None if it was not read.
 
-    The field is not called `origin`: half of the IR has an `origin` that is a pose.
+    `source` is no field of the dataclasses that are derived from this class: it is neither compared nor hashed, shown,
+    or converted by `asdict`. It is not called `origin`, as half of the IR has an `origin` that is a pose.
     """
 
-    source: SourceRef | None = field(default=None, compare=False, repr=False)
+    source: SourceRef | None = None
+
+    def with_source(self, source: SourceRef | None) -> Self:
+        """Return a copy of the value that was written there."""
+        value = copy(self)
+        object.__setattr__(value, "source", source)  # the value may be frozen
+        return value

@@ -78,8 +78,8 @@ def test_collections_of_any_kind_become_tuples():
 
 
 def test_a_version_is_stated_if_it_is_not_the_default():
-    assert not Robot("r").version_stated
-    assert Robot("r", "2.0").version_stated
+    assert not Robot("r").is_version_written
+    assert Robot("r", "2.0").is_version_written
     assert Robot("r", version_stated=True).version == "1.1"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
+from typing import Any, Protocol, Self, runtime_checkable
 
 from linkforge_compile.core.builders.link_draft import JointDraft, Triple, pose
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
@@ -12,11 +12,8 @@ from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Mesh, Transform
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, LinkPhysics, Visual
-from linkforge_compile.core.physics import calculate_inertia, inertial_of_shapes
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.physics import Solid
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.physics import Solid, calculate_inertia, inertial_of_shapes
 
 
 @runtime_checkable

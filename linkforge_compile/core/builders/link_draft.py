@@ -3,18 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any, Self, TypeAlias
 
 from linkforge_compile.core import constants as default
-from linkforge_compile.core.constants import (
-    DEFAULT_JOINT_DAMPING,
-    DEFAULT_JOINT_EFFORT,
-    DEFAULT_JOINT_FRICTION,
-    DEFAULT_JOINT_VELOCITY,
-    EPSILON,
-    HW_IF_EFFORT,
-)
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.models.joint import (
@@ -56,14 +47,9 @@ def unit_axis(axis: Triple) -> Vector3:
 
     """
     length = math.hypot(*axis)
-    if length < EPSILON:
-        raise RobotValidationError(
-            ValidationErrorCode.OUT_OF_RANGE,
-            "Joint axis magnitude is too small",
-            target="JointAxis",
-            value=0.0,
-            field=("axis",),
-        )
+    if length < default.EPSILON:
+        code, message = ValidationErrorCode.OUT_OF_RANGE, "Joint axis magnitude is too small"
+        raise RobotValidationError(code, message, "JointAxis", 0.0, field=("axis",))
     return Vector3(*(component / length for component in axis))
 
 
@@ -149,10 +135,8 @@ class LinkDraft:
         rpy: Triple = (0, 0, 0),
     ) -> Self:
         """Add a force and torque sensor."""
-        info = ForceTorqueInfo()
-        return self._add_sensor(
-            name, SensorType.FORCE_TORQUE, xyz, rpy, update_rate=update_rate, force_torque_info=info
-        )
+        values = {"update_rate": update_rate, "force_torque_info": ForceTorqueInfo()}
+        return self._add_sensor(name, SensorType.FORCE_TORQUE, xyz, rpy, **values)
 
     def contact(self, name: str, collision: str, update_rate: float = default.DEFAULT_UPDATE_RATE_CONTACT) -> Self:
         """Add a touch sensor that feels with a collision of that name."""
@@ -162,7 +146,7 @@ class LinkDraft:
     def sensor(self, sensor: Sensor) -> Self:
         """Add a sensor as it is, but on this link."""
         self._check_not_committed()
-        self._sensors.append(replace(sensor, link_name=self._link_name))
+        self._sensors.append(sensor.with_fields(link_name=self._link_name))
         return self
 
     def _add_sensor(
@@ -202,8 +186,8 @@ class JointDraft(LinkDraft):
         name: str | None = None,
         xyz: Triple | None = None,
         rpy: Triple | None = None,
-        effort: float = DEFAULT_JOINT_EFFORT,
-        velocity: float = DEFAULT_JOINT_VELOCITY,
+        effort: float = default.DEFAULT_JOINT_EFFORT,
+        velocity: float = default.DEFAULT_JOINT_VELOCITY,
     ) -> Self:
         """Let the link turn about an axis of any length within (lower, upper) [rad], [N·m], [rad/s]."""
         bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
@@ -215,8 +199,8 @@ class JointDraft(LinkDraft):
         name: str | None = None,
         xyz: Triple | None = None,
         rpy: Triple | None = None,
-        effort: float | None = DEFAULT_JOINT_EFFORT,
-        velocity: float | None = DEFAULT_JOINT_VELOCITY,
+        effort: float | None = default.DEFAULT_JOINT_EFFORT,
+        velocity: float | None = default.DEFAULT_JOINT_VELOCITY,
     ) -> Self:
         """Let the link turn about an axis without end, [N·m], [rad/s]; its limits are 0 to 0, unused.
 
@@ -234,8 +218,8 @@ class JointDraft(LinkDraft):
         name: str | None = None,
         xyz: Triple | None = None,
         rpy: Triple | None = None,
-        effort: float = DEFAULT_JOINT_EFFORT,
-        velocity: float = DEFAULT_JOINT_VELOCITY,
+        effort: float = default.DEFAULT_JOINT_EFFORT,
+        velocity: float = default.DEFAULT_JOINT_VELOCITY,
     ) -> Self:
         """Let the link slide along an axis of any length within (lower, upper) [m], [N], [m/s]."""
         bounds = JointLimits(lower=limits[0], upper=limits[1], effort=effort, velocity=velocity)
@@ -251,7 +235,9 @@ class JointDraft(LinkDraft):
         """Let the link move in the plane whose normal is the axis."""
         return self._set_joint(JointType.PLANAR, name, xyz, rpy, axis=unit_axis(axis))
 
-    def dynamics(self, damping: float = DEFAULT_JOINT_DAMPING, friction: float = DEFAULT_JOINT_FRICTION) -> Self:
+    def dynamics(
+        self, damping: float = default.DEFAULT_JOINT_DAMPING, friction: float = default.DEFAULT_JOINT_FRICTION
+    ) -> Self:
         """Let the joint resist: [N·m·s/rad] and [N·m], or [N·s/m] and [N]."""
         return self._set_parts(dynamics=JointDynamics(damping, friction))
 
@@ -276,7 +262,7 @@ class JointDraft(LinkDraft):
     def transmission(
         self,
         reduction: float = 1.0,
-        interface: str = HW_IF_EFFORT,
+        interface: str = default.HW_IF_EFFORT,
         actuator: str | None = None,
         name: str | None = None,
     ) -> Self:
@@ -351,16 +337,12 @@ class JointDraft(LinkDraft):
         if self._control is None:
             return None
         if not systems:
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                f"Joint '{joint.name}' requested ros2_control interfaces, but no global system exists.",
-                target="Ros2Control",
-            )
+            message = f"Joint '{joint.name}' requested ros2_control interfaces, but no global system exists."
+            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "Ros2Control")
         system = systems.get(self._control_system) if self._control_system else systems[0]
         if system is None:
-            raise RobotValidationError(
-                ValidationErrorCode.GENERIC_FAILURE,
-                f"Joint '{joint.name}' requested ros2_control system '{self._control_system}', but it was not found.",
-                target="Ros2Control",
+            message = (
+                f"Joint '{joint.name}' requested ros2_control system '{self._control_system}', but it was not found."
             )
-        return replace(system, joints=(*system.joints, Ros2ControlJoint(joint.name, **self._control)))
+            raise RobotValidationError(ValidationErrorCode.GENERIC_FAILURE, message, "Ros2Control")
+        return system.with_fields(joints=(*system.joints, Ros2ControlJoint(joint.name, **self._control)))

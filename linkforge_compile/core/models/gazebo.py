@@ -1,10 +1,8 @@
 """Gazebo: settings of the simulator for a link, a joint or the robot, and its plugins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Self
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import (
@@ -21,10 +19,11 @@ from linkforge_compile.core.fields import (
     tags_with_text,
 )
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FreePart, FrozenMap
+from linkforge_compile.core.part import Element, FreePart, FrozenMap, extras_last
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class GazeboPlugin(Element):
     """A plugin of a simulator: `<plugin name filename>`.
 
@@ -44,7 +43,7 @@ class GazeboPlugin(Element):
     parameters: Annotated[Mapping[str, FreePart], Parameters(xml="*")] = FrozenMap()
     raw_xml: str | None = field(default=None, compare=False)
 
-    def with_prefix(self, prefix: str) -> GazeboPlugin:
+    def with_prefix(self, prefix: str) -> Self:
         """Return the plugin with the prefix before its name, unless that is a class of Gazebo Sim's.
 
         A plugin of Gazebo Classic has any name; Gazebo Sim loads the class of that name, `gz::sim::systems::Imu`.
@@ -62,7 +61,8 @@ class GazeboPlugin(Element):
             )
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class GazeboElement(Element):
     """Settings of a simulator: `<gazebo reference>`.
 

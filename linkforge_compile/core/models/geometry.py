@@ -1,12 +1,10 @@
 """Vectors, poses, the shapes that links are made of, and their materials."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
-from typing import Annotated, ClassVar, TypeAlias
+from typing import Annotated, ClassVar, Self, TypeAlias
 
 from linkforge_compile.core.constants import DEFAULT_MATERIAL_RGBA, PI
 from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
@@ -19,11 +17,12 @@ from linkforge_compile.core.fields import (
     Number,
     Text,
     Vector,
+    check_numbers,
     is_finite,
     not_finite,
-    require_finite,
+    number_fields,
 )
-from linkforge_compile.core.part import Element, Part
+from linkforge_compile.core.part import Element, Part, extras_last
 from linkforge_compile.units import ANGLE, LENGTH
 
 
@@ -37,7 +36,7 @@ class GeometryType(StrEnum):
     CAPSULE = "capsule"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Vector3(Part):
     """Three numbers along x, y, z; the unit is that of the field which holds them. Integers stay integers.
 
@@ -74,7 +73,8 @@ _ZERO = Vector3(0.0, 0.0, 0.0)
 _ONE = Vector3(1.0, 1.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Transform(Element):
     """A pose in the frame of the thing that holds it: `<origin xyz rpy>`.
 
@@ -94,7 +94,7 @@ class Transform(Element):
         return self.is_stated or self != IDENTITY
 
     @classmethod
-    def identity(cls) -> Transform:
+    def identity(cls) -> Self:
         """Return the pose that moves nothing."""
         return cls()
 
@@ -107,24 +107,33 @@ IDENTITY = Transform()
 
 
 class _Shape(Element):
-    """What shapes have in common: a type, which is their tag inside `<geometry>`."""
+    """What shapes have in common: a type, which is their tag inside `<geometry>`, and sizes [m] above 0.
 
-    __slots__ = ()
+    Raises:
+        RobotPhysicsError: PHYSICS_VIOLATION for a size that is not above 0.
+        RobotMathError: INVALID_VALUE for NaN or infinity.
+
+    """
 
     @property
     def type(self) -> GeometryType:
         """The tag of the shape inside `<geometry>`."""
         return GeometryType(self.TAG)
 
+    def _check(self) -> None:
+        for name in number_fields(type(self)):
+            extent: float = getattr(self, name)
+            if extent <= 0:
+                message = f"{self.type} {name} must be positive [m], found {extent}"
+                target = f"{self.type.title()}{name.title()}"
+                raise RobotPhysicsError(ValidationErrorCode.PHYSICS_VIOLATION, message, target, extent, field=(name,))
+        check_numbers(self)
 
-@dataclass(frozen=True, slots=True)
+
+@extras_last
+@dataclass(frozen=True)
 class Box(_Shape):
-    """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless every extent is above 0.
-
-    """
+    """A cuboid centred on its origin: `<box size>`; `size` is its full extent along x, y, z [m]."""
 
     TAG: ClassVar[str] = "box"
 
@@ -133,13 +142,9 @@ class Box(_Shape):
     def _check(self) -> None:
         for position, extent in enumerate(self.size):
             if extent <= 0:
-                raise RobotPhysicsError(
-                    ValidationErrorCode.PHYSICS_VIOLATION,
-                    f"box dimensions must be positive [m], found {self.size}",
-                    target="BoxSize",
-                    value=self.size,
-                    field=(position,),
-                )
+                message = f"box dimensions must be positive [m], found {self.size}"
+                code = ValidationErrorCode.PHYSICS_VIOLATION
+                raise RobotPhysicsError(code, message, "BoxSize", self.size, field=(position,))
 
     def volume(self) -> float:
         """Return the volume [m³]."""
@@ -150,61 +155,41 @@ _RADIUS = Number(LENGTH, ABOVE_ZERO, example="0.1", is_required_in_urdf=True)
 _LENGTH = Number(LENGTH, ABOVE_ZERO, example="0.5", is_required_in_urdf=True)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Cylinder(_Shape):
-    """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
-    """
+    """A cylinder about its z axis, centred on its origin: `<cylinder radius length>`, both [m]."""
 
     TAG: ClassVar[str] = "cylinder"
 
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
-    def _check(self) -> None:
-        _require_extents(self, "radius", "length")
-
     def volume(self) -> float:
         """Return the volume [m³]."""
         return PI * (self.radius * self.radius) * self.length
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Sphere(_Shape):
-    """A sphere about its origin: `<sphere radius>` [m].
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless the radius is above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
-    """
+    """A sphere about its origin: `<sphere radius>` [m]."""
 
     TAG: ClassVar[str] = "sphere"
 
     radius: Annotated[float, _RADIUS]
-
-    def _check(self) -> None:
-        _require_extents(self, "radius")
 
     def volume(self) -> float:
         """Return the volume [m³]."""
         return 4 / 3 * PI * (self.radius * self.radius * self.radius)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Capsule(_Shape):
     """A cylinder about its z axis with a half sphere on either end: `<capsule radius length>`, both [m].
 
     `length` is that of the cylinder alone, so the whole is `length + 2 * radius` long. Centred on its origin.
-
-    Raises:
-        RobotPhysicsError: PHYSICS_VIOLATION unless radius and length are above 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
     """
 
     TAG: ClassVar[str] = "capsule"
@@ -212,15 +197,13 @@ class Capsule(_Shape):
     radius: Annotated[float, _RADIUS]
     length: Annotated[float, _LENGTH]
 
-    def _check(self) -> None:
-        _require_extents(self, "radius", "length")
-
     def volume(self) -> float:
         """Return the volume [m³]."""
         return PI * (self.radius * self.radius) * (self.length + 4 / 3 * self.radius)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Mesh(_Shape):
     """A shape from a file: `<mesh filename scale>`.
 
@@ -247,34 +230,17 @@ class Mesh(_Shape):
     def _check(self) -> None:
         for position, factor in enumerate(self.scale):
             if factor == 0:
-                raise RobotPhysicsError(
-                    ValidationErrorCode.PHYSICS_VIOLATION,
-                    f"mesh scale must not be 0 along any axis, found {self.scale}",
-                    target="MeshScale",
-                    value=self.scale,
-                    field=("scale", position),
-                )
+                message = f"mesh scale must not be 0 along any axis, found {self.scale}"
+                code, path = ValidationErrorCode.PHYSICS_VIOLATION, ("scale", position)
+                raise RobotPhysicsError(code, message, "MeshScale", self.scale, field=path)
 
 
 Geometry: TypeAlias = Box | Cylinder | Sphere | Capsule | Mesh
 """Any shape; the one child of `<geometry>`."""
 
 
-def _require_extents(shape: Cylinder | Sphere | Capsule, *names: str) -> None:
-    for name in names:
-        extent: float = getattr(shape, name)
-        if extent <= 0:
-            raise RobotPhysicsError(
-                ValidationErrorCode.PHYSICS_VIOLATION,
-                f"{shape.type} {name} must be positive [m], found {extent}",
-                target=f"{shape.type.title()}{name.title()}",
-                value=extent,
-                field=(name,),
-            )
-    require_finite(shape, *names)
-
-
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Color(Element):
     """Red, green, blue and opacity, each from 0 to 1: `<color rgba>`.
 
@@ -293,26 +259,22 @@ class Color(Element):
     def _check(self) -> None:
         for position, component in enumerate(self.to_tuple()):
             if not 0 <= component <= 1:
-                raise RobotValidationError(
-                    ValidationErrorCode.OUT_OF_RANGE,
-                    f"color component must be in range [0.0, 1.0], found {component}",
-                    target="ColorComponent",
-                    value=component,
-                    field=(position,),
-                )
+                message = f"color component must be in range [0.0, 1.0], found {component}"
+                code = ValidationErrorCode.OUT_OF_RANGE
+                raise RobotValidationError(code, message, "ColorComponent", component, field=(position,))
 
     @classmethod
-    def white(cls) -> Color:
+    def white(cls) -> Self:
         """Return opaque white."""
         return cls(1.0, 1.0, 1.0, 1.0)
 
     @classmethod
-    def black(cls) -> Color:
+    def black(cls) -> Self:
         """Return opaque black."""
         return cls(0.0, 0.0, 0.0, 1.0)
 
     @classmethod
-    def grey(cls) -> Color:
+    def grey(cls) -> Self:
         """Return the grey of a shape without a color: 0.7, opaque."""
         return cls(*DEFAULT_MATERIAL_RGBA)
 
@@ -324,7 +286,8 @@ class Color(Element):
         return f"{self.r} {self.g} {self.b} {self.a}"
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Material(Element):
     """A color, a texture or both, under a name that may be empty: `<material name>`.
 
@@ -346,9 +309,5 @@ class Material(Element):
 
     def _check(self) -> None:
         if self.color is None and self.texture is None:
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                f"material '{self.name}' must have a color or a texture",
-                target="MaterialDefinition",
-                value=self.name,
-            )
+            message = f"material '{self.name}' must have a color or a texture"
+            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "MaterialDefinition", self.name)

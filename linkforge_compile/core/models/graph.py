@@ -11,12 +11,11 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.link import Link
 
 if TYPE_CHECKING:
     from networkx import DiGraph, MultiDiGraph
-
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.link import Link
 
 Edge: TypeAlias = tuple[str, int]
 """The name that an edge leaves, and its place among the edges that leave it: two edges may join the same names."""

@@ -1,7 +1,5 @@
 """Joints: how one link may move relative to another, its limits and its friction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -30,7 +28,7 @@ from linkforge_compile.core.fields import (
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.naming import require_name, require_valid_characters
-from linkforge_compile.core.part import Element
+from linkforge_compile.core.part import Element, FrozenMap, dump_like, extras_last
 from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Motion
 
 
@@ -49,6 +47,8 @@ class JointType(StrEnum):
         """How the joint moves, which its units depend on."""
         return _MOTIONS.get(self, Motion.OTHER)
 
+
+dump_like(JointType, str)
 
 _MOTIONS = {
     JointType.REVOLUTE: Motion.TURNING,
@@ -69,7 +69,8 @@ HAVE_NO_LIMITS = (JointType.FIXED,)
 NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointLimits(Element):
     """How far, how hard and how fast a joint may move: `<limit>`.
 
@@ -91,7 +92,7 @@ class JointLimits(Element):
         Number(
             EFFORT,
             NOT_NEGATIVE,
-            example={Motion.TURNING: "50 N*m", Motion.SLIDING: "50 N", Motion.OTHER: "1"},
+            example=FrozenMap({Motion.TURNING: "50 N*m", Motion.SLIDING: "50 N", Motion.OTHER: "1"}),
             stand_in=1.0,
             is_required_in_urdf=True,
         ),
@@ -101,7 +102,7 @@ class JointLimits(Element):
         Number(
             SPEED,
             NOT_NEGATIVE,
-            example={Motion.TURNING: "90 deg/s", Motion.SLIDING: "0.2 m/s", Motion.OTHER: "1"},
+            example=FrozenMap({Motion.TURNING: "90 deg/s", Motion.SLIDING: "0.2 m/s", Motion.OTHER: "1"}),
             stand_in=1.0,
             is_required_in_urdf=True,
         ),
@@ -119,7 +120,8 @@ class JointLimits(Element):
         check_numbers(self)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointDynamics(Element):
     """Damping and friction of a joint: `<dynamics>`.
 
@@ -137,7 +139,8 @@ class JointDynamics(Element):
     friction: Annotated[float, Number(EFFORT, NOT_NEGATIVE)] = DEFAULT_JOINT_FRICTION
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointMimic(Element):
     """A joint at `multiplier` times the position of `joint`, plus `offset`: `<mimic>`.
 
@@ -157,7 +160,8 @@ class JointMimic(Element):
     stated: Sequence[str] = field(default=(), kw_only=True, compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointSafetyController(Element):
     """Where a controller begins to limit a joint: `<safety_controller>`.
 
@@ -177,7 +181,8 @@ class JointSafetyController(Element):
     k_velocity: Annotated[float, Number(is_required_in_urdf=True)] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointCalibration(Element):
     """Positions [rad] or [m] where a reference switch goes up or down, or None: `<calibration>`.
 
@@ -192,7 +197,8 @@ class JointCalibration(Element):
     falling: Annotated[float | None, Number(POSITION)] = None
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Joint(Element):
     """A joint: `<joint name type>` with `<parent>`, `<child>`, `<origin>`, `<axis>` and the rest.
 

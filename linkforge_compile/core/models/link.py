@@ -1,12 +1,10 @@
 """Links: rigid bodies with their mass, visuals and collisions, and the order of these shapes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from itertools import accumulate, chain, islice, zip_longest
-from typing import TYPE_CHECKING, Annotated, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeVar
 
 from linkforge_compile.core.constants import (
     DEFAULT_CONTACT_KD,
@@ -32,15 +30,16 @@ from linkforge_compile.core.fields import (
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Geometry, Material, Transform
 from linkforge_compile.core.naming import require_name, require_valid_characters
-from linkforge_compile.core.part import Element, Part, Stating, attribute_pairs, prefixed_fields, set_field
-from linkforge_compile.source import SourceRef
+from linkforge_compile.core.part import Element, Part, Stating, attribute_pairs, extras_last, prefixed_fields, set_field
+from linkforge_compile.source import Sourced
 from linkforge_compile.units import CONTACT_DAMPING, INERTIA, MASS, STIFFNESS
 
 _MOMENT = Number(INERTIA, example="0.01", is_required_in_urdf=True)
 _PRODUCT = Number(INERTIA, is_required_in_urdf=True)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class InertiaTensor(Element):
     """Entries of the tensor itself, so ixy = -∫ x·y dm [kg·m²], as URDF writes them: `<inertia>`.
 
@@ -62,7 +61,7 @@ class InertiaTensor(Element):
     iyz: Annotated[float, _PRODUCT] = 0.0
 
     @classmethod
-    def stability_floor(cls) -> InertiaTensor:
+    def stability_floor(cls) -> Self:
         """Return 1e-9 kg·m² about every axis: small enough not to matter, large enough for a solver."""
         return cls(MIN_REASONABLE_INERTIA, MIN_REASONABLE_INERTIA, MIN_REASONABLE_INERTIA)
 
@@ -70,7 +69,8 @@ class InertiaTensor(Element):
 _STABILITY_FLOOR = InertiaTensor.stability_floor()
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Inertial(Element):
     """The mass properties of a link: `<inertial>`.
 
@@ -101,7 +101,7 @@ class Inertial(Element):
         check_numbers(self)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LinkPhysics(Part, Stating):
     """How a simulator treats a link in contact: tags of its `<gazebo reference>`, defaults left out.
 
@@ -134,7 +134,8 @@ PHYSICS_TAGS = tags_with_text(LinkPhysics)
 """The tag of Gazebo that each field of LinkPhysics becomes, in the order in which they are written."""
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Visual(Element):
     """A visible shape: `<visual>`; `origin` is in the link frame, `material` and `name` may be None."""
 
@@ -146,7 +147,8 @@ class Visual(Element):
     name: Annotated[str | None, Name(key="name")] = None
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Collision(Element):
     """A shape in contact: `<collision>`; `origin` is its pose in the link frame, `name` may be None."""
 
@@ -157,14 +159,13 @@ class Collision(Element):
     name: Annotated[str | None, Name(key="name")] = None
 
 
-@dataclass(slots=True, weakref_slot=True)
-class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
+@dataclass
+class Link(Sourced):  # noqa: PLW1641 its `__eq__` is for type checkers alone
     """A rigid body, or a frame if it has no `inertial` and no shapes: `<link name>`. It is mutable.
 
-    `source` is where it was written, None if it was not read; it is not compared. `extra_attributes` and
-    `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each shape in the order in
-    which they are written, empty for visuals before collisions: to MuJoCo a collision has the color of the visual
-    before it. It is not compared.
+    `extra_attributes` and `extra_elements` are as on `Element`. `shape_order` has a 'visual' or 'collision' for each
+    shape in the order in which they are written, empty for visuals before collisions: to MuJoCo a collision has the
+    color of the visual before it. It is not compared.
 
     Raises:
         RobotValidationError: NAME_EMPTY for an empty name, INVALID_NAME for one with other characters than
@@ -184,7 +185,6 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     shape_order: Annotated[Sequence[str], Text(xml="")] = field(default=(), compare=False, repr=False, kw_only=True)
     extra_attributes: Sequence[tuple[str, str]] = field(default=(), repr=False, kw_only=True)
     extra_elements: Sequence[str] = field(default=(), repr=False, kw_only=True)
-    source: SourceRef | None = field(default=None, compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         require_name(self.name, "link name", "LinkName")
@@ -196,6 +196,8 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
         self.extra_elements = tuple(self.extra_elements)
 
     def __setattr__(self, field: str, value: object) -> None:
+        if type(self) is Link and field != "source" and field not in self.__dataclass_fields__:
+            raise AttributeError(f"a Link has no field '{field}'")  # a misspelled one would not be missed
         if field == "name" and hasattr(self, "name"):
             Link.renamings += 1
         object.__setattr__(self, field, value)
@@ -233,7 +235,7 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
         """The centre of mass and the tensor's axes in the link frame; identity for a link without inertial."""
         return self.inertial.origin if self.inertial else IDENTITY
 
-    def with_prefix(self, prefix: str) -> Link:
+    def with_prefix(self, prefix: str) -> Self:
         """Return a new link with its name and those of its visuals and collisions prefixed.
 
         A link of a derived class is copied, not constructed: its constructor may take anything.
@@ -252,16 +254,6 @@ class Link:  # noqa: PLW1641 its `__eq__` is for type checkers alone
     if TYPE_CHECKING:
 
         def __eq__(self, other: object) -> bool: ...  # for the same reason as that of Part
-
-    def __getstate__(self) -> object:
-        return object.__getstate__(self)  # without it, the oldest protocols of pickle refuse what has slots
-
-    def __setstate__(self, state: tuple[Mapping[str, object] | None, Mapping[str, object]]) -> None:
-        attributes, slots = state
-        for name, value in slots.items():
-            object.__setattr__(self, name, value)  # a derived class may refuse changes
-        if attributes:
-            vars(self).update(attributes)
 
 
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from typing import Any, Final, Generic, NamedTuple, SupportsIndex, TypeVar, over
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.part import dump_like
 
 T = TypeVar("T")
 
@@ -49,6 +50,9 @@ class KeySpec(NamedTuple):
         """Return the error for a name that no item has."""
         message = f"{self.kind[0].upper()}{self.kind[1:]} '{name}' not found"
         return RobotValidationError(ValidationErrorCode.NOT_FOUND, message, self._target, name)
+
+
+PART: Final = KeySpec("part")
 
 
 class PartList(Generic[T]):
@@ -110,7 +114,7 @@ class PartList(Generic[T]):
     def table(self) -> NamedTable[T]:
         """The parts as a tuple, the same one until parts are added."""
         if self._table is None:
-            self._table = NamedTable(self.spec, self._parts, self)
+            self._table = NamedTable(self._parts, self.spec, self)
         return self._table
 
     def __reduce__(self) -> tuple[type[PartList[T]], tuple[KeySpec, list[T]]]:
@@ -126,8 +130,10 @@ class NamedTable(tuple[T, ...]):
 
     _list: PartList[T]  # of these parts, and of those that were added later
 
-    def __new__(cls, spec: KeySpec, parts: Iterable[T] = (), parts_list: PartList[T] | None = None) -> NamedTable[T]:
-        table = super().__new__(cls, parts)
+    def __new__(
+        cls, parts: Iterable[T] = (), spec: KeySpec = PART, parts_list: PartList[T] | None = None
+    ) -> NamedTable[T]:
+        table = super().__new__(cls, parts)  # `dataclasses.asdict` gives the parts alone
         table._list = PartList(spec, table) if parts_list is None else parts_list
         return table
 
@@ -176,9 +182,11 @@ class NamedTable(tuple[T, ...]):
         longer.extend(longer.select_new(parts))
         return longer.table
 
-    def __reduce__(self) -> tuple[type[NamedTable[T]], tuple[KeySpec, tuple[T, ...]]]:
-        return NamedTable, (self._list.spec, tuple(self))
+    def __reduce__(self) -> tuple[type[NamedTable[T]], tuple[tuple[T, ...], KeySpec]]:
+        return NamedTable, (tuple(self), self._list.spec)
 
+
+dump_like(NamedTable, list)
 
 Index = NamedTable
 """The name under which `linkforge_compile.core` exports the class."""

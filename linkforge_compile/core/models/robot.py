@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import deepcopy
-from dataclasses import replace
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from linkforge_compile.core.constants import SRDF_REASON_ADJACENT
 from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
-from linkforge_compile.core.models.geometry import IDENTITY
+from linkforge_compile.core.models.gazebo import GazeboElement, content_key
+from linkforge_compile.core.models.geometry import IDENTITY, Material, Transform, Vector3
 from linkforge_compile.core.models.graph import refuse_cycles, tree_root
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
+from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.named_table import NAME
 from linkforge_compile.core.models.robot_parts import (
     RobotParts,
@@ -21,18 +22,19 @@ from linkforge_compile.core.models.robot_parts import (
     require_robot_name,
     select_new_materials,
 )
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.geometry import Material, Transform, Vector3
-    from linkforge_compile.core.models.joint import JointLimits
-    from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.models.ros2_control import Ros2Control
-    from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import Chain, SemanticRobotDescription, SrdfSphere
-    from linkforge_compile.core.models.transmission import Transmission
-
-# srdf.py is imported inside the functions that use it: most robots have no semantic part.
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    JointProperty,
+    LinkSphereApproximation,
+    PlanningGroup,
+    SemanticRobotDescription,
+    SrdfSphere,
+    chain_between,
+)
+from linkforge_compile.core.models.transmission import Transmission
 
 
 class Robot(RobotParts):
@@ -115,8 +117,6 @@ class Robot(RobotParts):
         return self
 
     def _add_entries(self, **entries: Any) -> Self:  # Any: each collection has entries of its own class
-        from linkforge_compile.core.models.srdf import SemanticRobotDescription
-
         return self.add_semantic(SemanticRobotDescription(**entries))
 
     def add_group(  # noqa: PLR0917 the contract's signature
@@ -136,8 +136,6 @@ class Robot(RobotParts):
                 group of nothing.
 
         """
-        from linkforge_compile.core.models.srdf import PlanningGroup, chain_between
-
         all_chains = (*(chains or ()), *chain_between(name, base_link, tip_link))
         group = PlanningGroup(name, links or (), joints or (), all_chains, subgroups or ())
         for link in (*group.links, *(end for chain in group.chains for end in (chain.base_link, chain.tip_link))):
@@ -163,15 +161,11 @@ class Robot(RobotParts):
         return self._disable_pairs(combinations(links, 2), reason)
 
     def _disable_pairs(self, pairs: Iterable[tuple[str, str]], reason: str) -> Self:
-        from linkforge_compile.core.models.srdf import CollisionPair
-
         disabled = [CollisionPair(self.link(one).name, self.link(other).name, reason) for one, other in pairs]
         return self._add_entries(disabled_collisions=disabled)
 
     def enable_collisions(self, link1: str, link2: str, reason: str | None = None) -> Self:
         """Let planning check two links for collisions although that is disabled by default; once a pair."""
-        from linkforge_compile.core.models.srdf import CollisionPair
-
         pair = CollisionPair(self.link(link1).name, self.link(link2).name, reason)
         return self._add_entries(enabled_collisions=[pair])
 
@@ -181,14 +175,10 @@ class Robot(RobotParts):
 
     def add_joint_property(self, joint_name: str, property_name: str, value: str) -> Self:
         """Add a property of a joint that planners know by name."""
-        from linkforge_compile.core.models.srdf import JointProperty
-
         return self._add_entries(joint_properties=[JointProperty(self.joint(joint_name).name, property_name, value)])
 
     def approximate_link_collision(self, link: str, spheres: list[SrdfSphere]) -> Self:
         """Approximate a link's shape in collisions by spheres."""
-        from linkforge_compile.core.models.srdf import LinkSphereApproximation
-
         return self._add_entries(link_sphere_approximations=[LinkSphereApproximation(self.link(link).name, spheres)])
 
     def merge(  # noqa: PLR0917 the contract's signature
@@ -231,7 +221,7 @@ class Robot(RobotParts):
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
             if joint:
                 names = ("name", "type", "parent", "child", "origin", "axis", "limits")
-                connecting = replace(joint, **{name: getattr(connecting, name) for name in names})
+                connecting = joint.with_fields(**{name: getattr(connecting, name) for name in names})
             parts["joints"].append(connecting)
         parts["extra_elements"] = list(component.extra_elements)
         self._add_component(component, prefix, parts, materials)
@@ -283,8 +273,6 @@ class Robot(RobotParts):
         Gazebo elements are sorted by reference and then by content; materials and metadata are mappings, and the order
         of visuals and collisions is kept, for it has a meaning.
         """
-        from linkforge_compile.core.models.gazebo import content_key
-
         robot = self.clone()
         robot.links = sorted(robot.links, key=NAME)
         robot.joints = sorted(robot.joints, key=NAME)

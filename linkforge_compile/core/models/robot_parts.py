@@ -4,30 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, overload
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.gazebo import GazeboElement
+from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
+from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, PartList, TableField, itself
-from linkforge_compile.core.naming import is_valid_name
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.srdf import SemanticRobotDescription
+from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.core.naming import is_valid_name, require_name
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.geometry import Material
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.ros2_control import Ros2Control
-    from linkforge_compile.core.models.sensor import Sensor
-    from linkforge_compile.core.models.srdf import SemanticRobotDescription
-    from linkforge_compile.core.models.transmission import Transmission
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Sourced
 
 
 class _Tree:
@@ -59,14 +57,10 @@ def require_robot_name(name: str) -> None:
         RobotValidationError: NAME_EMPTY, INVALID_NAME.
 
     """
-    if not name:
-        raise RobotValidationError(
-            ValidationErrorCode.NAME_EMPTY, "Robot name cannot be empty", "RobotName", name, field=("name",)
-        )
+    require_name(name, "Robot name", "RobotName")
     if not is_valid_name(name):
-        raise RobotValidationError(
-            ValidationErrorCode.INVALID_NAME, "Invalid name format", "RobotName", name, field=("name",)
-        )
+        code, message = ValidationErrorCode.INVALID_NAME, "Invalid name format"
+        raise RobotValidationError(code, message, "RobotName", name, field=("name",))
 
 
 class SemanticField:
@@ -79,35 +73,19 @@ class SemanticField:
     def __get__(self, robot: RobotParts | None, owner: type) -> SemanticRobotDescription | None:
         if robot is None:
             return None  # the field's default, to dataclasses
-        from linkforge_compile.core.models.srdf import SemanticRobotDescription
-
         description: SemanticRobotDescription | None = vars(robot)["semantic"]
         if description is None:
             return SemanticRobotDescription(robot.name)
         if description.robot_name != robot.name:
-            description = vars(robot)["semantic"] = replace(description, robot_name=robot.name)
+            description = vars(robot)["semantic"] = description.with_fields(robot_name=robot.name)
         return description
 
     def __set__(self, robot: RobotParts, description: SemanticRobotDescription | None) -> None:
         vars(robot)["semantic"] = description
 
 
-class VersionStatedField:
-    """The field `version_stated`: True if it was set, or if the version is not the default."""
-
-    @overload
-    def __get__(self, robot: None, owner: type) -> Literal[False]: ...
-    @overload
-    def __get__(self, robot: RobotParts, owner: type) -> bool: ...
-    def __get__(self, robot: RobotParts | None, owner: type) -> bool:
-        return robot is not None and (vars(robot)["version_stated"] or robot.version != IR_VERSION)
-
-    def __set__(self, robot: RobotParts, stated: bool) -> None:
-        vars(robot)["version_stated"] = stated
-
-
 @dataclass
-class RobotParts:
+class RobotParts(Sourced):
     """The parts of a robot, each kind in the order in which they were added.
 
     The collections are tuples with look-up by name (see NamedTable), and take any iterable. Two links or two joints of
@@ -132,82 +110,73 @@ class RobotParts:
     extra_elements: TableField[str] = TableField(KeySpec("extra element", itself, OnDuplicate.KEEP))
     _: KW_ONLY
     extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
-    version_stated: VersionStatedField = VersionStatedField()
-    source: SourceRef | None = field(default=None, compare=False, repr=False)
-    _last_tree: _Tree | None = field(default=None, init=False, repr=False, compare=False)
+    version_stated: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         require_robot_name(self.name)
         self.extra_attributes = attribute_pairs(self.extra_attributes)
+        self._last_tree: _Tree | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Return the state for copies and pickles: lists of its own, without what can be computed."""
         state = {name: copy(value) if isinstance(value, PartList) else value for name, value in vars(self).items()}
         return {**state, "_last_tree": None}
 
+    # Of each kind: the part of a name or None; the part, or NOT_FOUND; whether there is one.
+
     def get_link(self, name: str) -> Link | None:
-        """Return the link of that name, None if there is none."""
         return self.links.get(name)
 
     def link(self, name: str) -> Link:
-        """Return the link of that name; raise NOT_FOUND if there is none."""
         return self.links.require(name)
 
     def has_link(self, name: str) -> bool:
-        """Tell whether there is a link of that name."""
         return self.links.get(name) is not None
 
     def get_joint(self, name: str) -> Joint | None:
-        """Return the joint of that name, None if there is none."""
         return self.joints.get(name)
 
     def joint(self, name: str) -> Joint:
-        """Return the joint of that name; raise NOT_FOUND if there is none."""
         return self.joints.require(name)
 
     def has_joint(self, name: str) -> bool:
-        """Tell whether there is a joint of that name."""
         return self.joints.get(name) is not None
 
     def get_sensor(self, name: str) -> Sensor | None:
-        """Return the sensor of that name, None if there is none."""
         return self.sensors.get(name)
 
     def sensor(self, name: str) -> Sensor:
-        """Return the sensor of that name; raise NOT_FOUND if there is none."""
         return self.sensors.require(name)
 
     def has_sensor(self, name: str) -> bool:
-        """Tell whether there is a sensor of that name."""
         return self.sensors.get(name) is not None
 
     def get_transmission(self, name: str) -> Transmission | None:
-        """Return the transmission of that name, None if there is none."""
         return self.transmissions.get(name)
 
     def transmission(self, name: str) -> Transmission:
-        """Return the transmission of that name; raise NOT_FOUND if there is none."""
         return self.transmissions.require(name)
 
     def has_transmission(self, name: str) -> bool:
-        """Tell whether there is a transmission of that name."""
         return self.transmissions.get(name) is not None
 
     def get_ros2_control(self, name: str) -> Ros2Control | None:
-        """Return the hardware component of that name, None if there is none."""
         return self.ros2_controls.get(name)
 
     def ros2_control(self, name: str) -> Ros2Control:
-        """Return the hardware component of that name; raise NOT_FOUND if there is none."""
         return self.ros2_controls.require(name)
 
     def has_ros2_control(self, name: str) -> bool:
-        """Tell whether there is a hardware component of that name."""
         return self.ros2_controls.get(name) is not None
 
     def get_gazebo_elements(self, reference: str | None = None) -> list[GazeboElement]:
         """Return the Gazebo elements about one link or joint; all of them for None."""
         return [element for element in self.gazebo_elements if reference is None or element.reference == reference]
+
+    @property
+    def is_version_written(self) -> bool:
+        """True if the version is stated, or not the default."""
+        return self.version_stated or self.version != IR_VERSION
 
     @property
     def has_semantic(self) -> bool:
@@ -226,10 +195,7 @@ class RobotParts:
     ) -> None:
         """Add parts of several kinds, all of them or none; the parts that they refer to need not exist.
 
-        Raises:
-            RobotValidationError: DUPLICATE_NAME for a link, joint, sensor, transmission or ros2_control whose name is
-                taken.
-
+        Of all but Gazebo elements, a name that is taken raises DUPLICATE_NAME.
         """
         self._extend(
             self._select_new(
@@ -263,12 +229,7 @@ class RobotParts:
 
     @property
     def graph(self) -> KinematicGraph:
-        """The links and joints as a graph, made anew when they have changed.
-
-        Raises:
-            RobotValidationError: NOT_FOUND for a joint without its links.
-
-        """
+        """The links and joints as a graph, made anew when they have changed; NOT_FOUND for a joint without links."""
         return self._tree.graph
 
     def get_joints_for_link(self, link_name: str, as_parent: bool = True) -> list[Joint]:
@@ -295,12 +256,7 @@ class RobotParts:
         return [self.link(joint.child) for joint in self.get_child_joints(link_name)]
 
     def get_root_link(self) -> Link:
-        """Return the one link that is no joint's child.
-
-        Raises:
-            RobotValidationError: NO_ROOT, MULTIPLE_ROOTS, or NOT_FOUND for a joint without its links.
-
-        """
+        """Return the one link that is no joint's child; raise NO_ROOT, MULTIPLE_ROOTS, or what `graph` raises."""
         return self.link(single_root(self.graph))
 
     @property
@@ -361,12 +317,7 @@ _KINDS = ("links", "joints", "sensors", "transmissions", "ros2_controls", "gazeb
 
 
 def prefixed_parts(robot: RobotParts, prefix: str) -> dict[str, list[Any]]:  # Any: each kind has a class of its own
-    """Return the parts of a robot by kind, with the prefix on their names and references.
-
-    Raises:
-        RobotModelError: INVALID_NAME where the prefix makes a name that no part may have.
-
-    """
+    """Return the parts of a robot by kind, with the prefix on their names and references; raise INVALID_NAME."""
     return {kind: [part.with_prefix(prefix) for part in getattr(robot, kind)] for kind in _KINDS}
 
 
@@ -386,14 +337,10 @@ def select_new_materials(added: Mapping[str, Material], own: Mapping[str, Materi
     """
     for name, material in added.items():
         if name in own and own[name] != material:
-            raise RobotValidationError(
-                ValidationErrorCode.DUPLICATE_NAME,
-                f"Duplicate material name: '{name}', for two different materials",
-                target="Material",
-                value=name,
-            )
+            message = f"Duplicate material name: '{name}', for two different materials"
+            raise RobotValidationError(ValidationErrorCode.DUPLICATE_NAME, message, "Material", name)
     return {
-        name: replace(own[name], after_links=False) if name in own else material
+        name: own[name].with_fields(after_links=False) if name in own else material
         for name, material in added.items()
         if name not in own or own[name].after_links > material.after_links
     }

@@ -1,18 +1,17 @@
 """ros2_control: hardware with its joints, sensors, gpios and their interfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import partial
 from operator import attrgetter
-from typing import Annotated, Any, ClassVar, NoReturn, Self
+from typing import Annotated, ClassVar, NoReturn, Self
 
 from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text, require_choice
 from linkforge_compile.core.naming import require_name, require_unique_names
-from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs
+from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs, dump_like, extras_last
 from linkforge_compile.source import SourceRef
 
 
@@ -41,7 +40,7 @@ class Interface(str):
         extra_attributes: Sequence[tuple[str, str]] = (),
         extra_elements: Sequence[str] = (),
         extra_inside: Sequence[Inside] = (),
-    ) -> Interface:
+    ) -> Self:
         interface = super().__new__(cls, name)
         facts = {
             "parameters": FrozenMap(parameters),
@@ -55,7 +54,7 @@ class Interface(str):
         return interface
 
     @classmethod
-    def of(cls, name: str) -> Interface:
+    def of(cls, name: str) -> "Interface":
         """Return the interface itself, or one without parameters for a bare name."""
         return name if isinstance(name, Interface) else cls(name)
 
@@ -81,21 +80,14 @@ class Interface(str):
     def __delattr__(self, name: str) -> NoReturn:
         raise AttributeError(f"an Interface cannot be changed: {name}")
 
-    def __copy__(self) -> Interface:
-        return self
-
-    def __deepcopy__(self, memo: object) -> Interface:
-        return self
-
     def __reduce__(self) -> tuple[object, ...]:
-        return _revive, (str(self), {name: getattr(self, name) for name in ("source", *_FACTS)})
+        facts = {name: getattr(self, name) for name in ("source", *_FACTS)}
+        return partial(type(self), **facts), (str(self),)
 
+
+dump_like(Interface, str)
 
 _FACTS = ("parameters", "extra_attributes", "extra_elements", "extra_inside")
-
-
-def _revive(name: str, facts: Mapping[str, Any]) -> Interface:  # Any: each fact has a type of its own
-    return Interface(name, **facts)
 
 
 _COMMANDS = Children(kinds=(Interface,), xml="command_interface")
@@ -110,7 +102,8 @@ class Ros2ControlType(StrEnum):
     SENSOR = CONTROL_TYPE_SENSOR
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class _CommandedComponent(Element):
     """What joints and gpios have in common: they may be commanded as well as read."""
 
@@ -127,8 +120,7 @@ class _CommandedComponent(Element):
 
     def normalized(self) -> Self:
         """Return it with its interfaces sorted."""
-        return replace(
-            self,
+        return self.with_fields(
             command_interfaces=tuple(sorted(self.command_interfaces)),
             state_interfaces=tuple(sorted(self.state_interfaces)),
         )
@@ -144,7 +136,6 @@ class Ros2ControlJoint(_CommandedComponent):
 
     """
 
-    __slots__ = ()
     TAG = "joint"
     name: Annotated[str, Reference("joint", key="")]
     what = "ros2_control joint"
@@ -169,13 +160,13 @@ class Ros2ControlGpio(_CommandedComponent):
 
     """
 
-    __slots__ = ()
     TAG = "gpio"
     what = "ros2_control gpio"
     name_target = "GpioName"
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Ros2ControlSensor(Element):
     """A sensor that hardware reads: `<sensor name>` in `<ros2_control>`; fields as of a joint.
 
@@ -193,12 +184,13 @@ class Ros2ControlSensor(Element):
     def _check(self) -> None:
         require_name(self.name, "ros2_control sensor name", "SensorName")
 
-    def normalized(self) -> Ros2ControlSensor:
+    def normalized(self) -> Self:
         """Return it with its interfaces sorted."""
-        return replace(self, state_interfaces=tuple(sorted(self.state_interfaces)))
+        return self.with_fields(state_interfaces=tuple(sorted(self.state_interfaces)))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Ros2Control(Element):
     """One piece of hardware: `<ros2_control name type>`.
 
@@ -259,11 +251,10 @@ class Ros2Control(Element):
                 "joints",
             )
 
-    def normalized(self) -> Ros2Control:
+    def normalized(self) -> Self:
         """Return it with joints, sensors and gpios sorted by name, and their interfaces sorted."""
         by_name = attrgetter("name")
-        return replace(
-            self,
+        return self.with_fields(
             joints=tuple(joint.normalized() for joint in sorted(self.joints, key=by_name)),
             sensors=tuple(sensor.normalized() for sensor in sorted(self.sensors, key=by_name)),
             gpios=tuple(gpio.normalized() for gpio in sorted(self.gpios, key=by_name)),

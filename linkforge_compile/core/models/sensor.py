@@ -1,7 +1,5 @@
 """Sensors on links: what they measure, how well, and under which topic."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -27,7 +25,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.naming import require_name
-from linkforge_compile.core.part import Element, Stating
+from linkforge_compile.core.part import Element, Stating, dump_like, extras_last
 from linkforge_compile.units import ANGLE, FREQUENCY, LENGTH, LOAD, PIXELS, TURN_RATE, VELOCITY
 
 
@@ -45,6 +43,8 @@ class SensorType(StrEnum):
     CONTACT = "contact"
     RGBD_CAMERA = "rgbd_camera"
 
+
+dump_like(SensorType, str)
 
 REQUIRED_INFO = {
     SensorType.CAMERA: "camera_info",
@@ -74,7 +74,8 @@ class ForceTorqueDirection(StrEnum):
     PARENT_TO_CHILD = default.FT_DIR_PARENT_TO_CHILD
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class SensorNoise(Element, Stating):
     """Noise on a measured value, in that value's unit: `<noise>`.
 
@@ -97,7 +98,8 @@ class SensorNoise(Element, Stating):
     stated: Sequence[str] = field(default=(), kw_only=True, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class CameraInfo(Element):
     """A pinhole camera: `<camera>`.
 
@@ -138,7 +140,8 @@ class CameraInfo(Element):
             )
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class LidarInfo(Element):
     """A laser scanner: `<lidar>`, in Gazebo Classic `<ray>`.
 
@@ -213,7 +216,8 @@ class LidarInfo(Element):
             )
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class IMUInfo(Element):
     """An inertial unit: `<imu>`; noise on each axis of [rad/s] and [m/s²], None for none."""
 
@@ -223,7 +227,8 @@ class IMUInfo(Element):
     linear_acceleration_noise: Annotated[SensorNoise | None, Noise(xml="linear_acceleration/*/noise")] = None
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class GPSInfo(Element):
     """A satellite receiver: `<navsat>`, in Gazebo Classic `<gps>`; noise on [m] and [m/s], None for none."""
 
@@ -243,7 +248,8 @@ class GPSInfo(Element):
     ] = None
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class ContactInfo(Element):
     """A touch sensor: `<contact>`; `collision` names the collision that feels, `noise` is None for none."""
 
@@ -253,7 +259,8 @@ class ContactInfo(Element):
     noise: Annotated[SensorNoise | None, Noise()] = None
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class ForceTorqueInfo(Element):
     """A force and torque sensor in a joint: `<force_torque>`.
 
@@ -281,7 +288,8 @@ class ForceTorqueInfo(Element):
         )
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Sensor(Element):
     """A sensor on a link: `<sensor name type>` in a `<gazebo reference>` of that link.
 

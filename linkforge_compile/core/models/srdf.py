@@ -1,16 +1,18 @@
-"""The semantic description of a robot for motion planning: SRDF."""
+"""The semantic description of a robot for motion planning: SRDF.
 
-from __future__ import annotations
+The constructors raise RobotValidationError for what is not as their class describes it, NAME_EMPTY for a blank name,
+group or link, and RobotMathError for NaN and infinity.
+"""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from numbers import Real
 from operator import attrgetter
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
-from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     Children,
@@ -22,10 +24,11 @@ from linkforge_compile.core.fields import (
     is_finite,
     not_finite,
     require_choice,
+    require_finite,
 )
 from linkforge_compile.core.models.named_table import KeySpec, NamedTable, OnDuplicate, itself
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FrozenMap, set_field
+from linkforge_compile.core.part import Element, FrozenMap, extras_last, set_field
 from linkforge_compile.units import LENGTH
 
 
@@ -37,15 +40,12 @@ class VirtualJointType(StrEnum):
     FLOATING = SRDF_VJOIN_FLOATING
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class VirtualJoint(Element):
     """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
     `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank name, INVALID_VALUE for another type.
-
     """
 
     TAG = "virtual_joint"
@@ -60,14 +60,10 @@ class VirtualJoint(Element):
         require_choice(self.type, VirtualJointType, "virtual joint type", "VirtualJointType", "type")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Chain(Element):
-    """The joints from one link to another: `<chain base_link tip_link>`; both ends may be the same link.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank end.
-
-    """
+    """The joints from one link to another: `<chain base_link tip_link>`; both ends may be the same link."""
 
     TAG = "chain"
 
@@ -79,14 +75,10 @@ class Chain(Element):
         require_not_blank(self.tip_link, "tip_link of a chain", "ChainTipLink", ("tip_link",))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank name, VALUE_EMPTY for a group of nothing.
-
-    """
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups."""
 
     TAG = "group"
     NAMES_INSIDE_TAKE_PREFIX = True
@@ -100,11 +92,8 @@ class PlanningGroup(Element):
     def _check(self) -> None:
         require_not_blank(self.name, "planning group name", "PlanningGroupName")
         if not (self.links or self.joints or self.chains or self.subgroups):
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                f"planning group '{self.name}' must have at least one link, joint, chain or subgroup",
-                target="PlanningGroup",
-            )
+            message = f"planning group '{self.name}' must have at least one link, joint, chain or subgroup"
+            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "PlanningGroup")
 
 
 def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tuple[Chain, ...]:
@@ -117,27 +106,18 @@ def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tu
     if base_link and tip_link:
         return (Chain(base_link, tip_link),)
     if base_link or tip_link:
-        raise RobotValidationError(
-            ValidationErrorCode.INVALID_VALUE,
-            f"base_link and tip_link of group '{group}' must be given together",
-            target="PlanningGroup",
-            value=base_link or tip_link,
-            field=("chain",),
-        )
+        message, given = f"base_link and tip_link of group '{group}' must be given together", base_link or tip_link
+        raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "PlanningGroup", given, field=("chain",))
     return ()
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class GroupState(Element):
     """A named pose of a group: `<group_state name group>`.
 
     `joint_values` are positions [rad] or [m] by joint, each a tuple with a number for every degree of freedom.
     A number given alone becomes a tuple of one float, another collection a tuple, anything else a tuple of itself.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank name or group.
-        RobotMathError: INVALID_VALUE for NaN or infinity; the field is the joint and the position in its tuple.
-
     """
 
     TAG = "group_state"
@@ -148,8 +128,7 @@ class GroupState(Element):
     # Any: numbers are accepted, and made tuples
     joint_values: Annotated[Mapping[str, Any], Reference("joint", key="", xml="joint/@name")] = FrozenMap()
 
-    def __post_init__(self) -> None:
-        Element.__post_init__(self)
+    def _check(self) -> None:
         require_not_blank(self.name, "group state name", "GroupStateName")
         require_not_blank(self.group, "group of a state", "GroupName", ("group",))
         values = {joint: _position_tuple(given) for joint, given in self.joint_values.items()}
@@ -166,15 +145,12 @@ def _position_tuple(given: object) -> tuple[object, ...]:
     return (float(given),) if isinstance(given, Real) else (given,)
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class EndEffector(Element):
     """A group that is a tool at the end of an arm: `<end_effector name group parent_link parent_group>`.
 
     `parent_link` is the link of the arm that carries it, `parent_group` the group of the arm, None if not given.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank name or group.
-
     """
 
     TAG = "end_effector"
@@ -190,14 +166,10 @@ class EndEffector(Element):
         require_not_blank(self.group, "group of an end effector", "GroupName", ("group",))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class PassiveJoint(Element):
-    """A joint that nothing drives: `<passive_joint name>`.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank name.
-
-    """
+    """A joint that nothing drives: `<passive_joint name>`."""
 
     TAG = "passive_joint"
 
@@ -207,14 +179,10 @@ class PassiveJoint(Element):
         require_not_blank(self.name, "passive joint name", "PassiveJointName")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class JointProperty(Element):
-    """A remark on a joint that a planner reads: `<joint_property joint_name property_name value>`.
-
-    Raises:
-        RobotValidationError: VALUE_EMPTY if one of the three is blank.
-
-    """
+    """A remark on a joint that a planner reads: `<joint_property joint_name property_name value>`; none is blank."""
 
     TAG = "joint_property"
 
@@ -225,24 +193,17 @@ class JointProperty(Element):
     def _check(self) -> None:
         for name in ("joint_name", "property_name", "value"):
             if not getattr(self, name).strip():
-                raise RobotValidationError(
-                    ValidationErrorCode.VALUE_EMPTY,
-                    f"{name} of a joint property cannot be empty or blank",
-                    target="JointProperty",
-                    field=(name,),
-                )
+                message = f"{name} of a joint property cannot be empty or blank"
+                raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "JointProperty", field=(name,))
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class CollisionPair(Element):
-    """Two links whose collision is ignored or checked: `<disable_collisions>`, `<enable_collisions>`.
+    """Two different links whose collision is ignored or checked: `<disable_collisions>`, `<enable_collisions>`.
 
     `reason` is for people and tools (`Adjacent`, `Never`), None if not given. (a, b) and (b, a) are
     the same pair but not equal; `key` is.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank link, INVALID_VALUE for a link with itself.
-
     """
 
     link1: Annotated[str, Reference("link", key="")]
@@ -253,12 +214,8 @@ class CollisionPair(Element):
         require_not_blank(self.link1, "link1 of a collision pair", "CollisionPair", ("link1",))
         require_not_blank(self.link2, "link2 of a collision pair", "CollisionPair", ("link2",))
         if self.link1 == self.link2:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"a collision pair needs two different links, found '{self.link1}' twice",
-                target="CollisionPair",
-                field=("link2",),
-            )
+            message = f"a collision pair needs two different links, found '{self.link1}' twice"
+            raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "CollisionPair", field=("link2",))
 
     @property
     def key(self) -> tuple[str, str]:
@@ -269,15 +226,10 @@ class CollisionPair(Element):
 _CENTER = Number(LENGTH, key="center", xml="@center", example="[0, 0, 0.1]")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class SrdfSphere(Element):
-    """A sphere in the frame of its link: `<sphere center radius>`, all [m].
-
-    Raises:
-        RobotValidationError: INVALID_VALUE for a radius below 0.
-        RobotMathError: INVALID_VALUE for NaN or infinity.
-
-    """
+    """A sphere in the frame of its link: `<sphere center radius>`, all [m]; a radius may be 0."""
 
     TAG = "sphere"
 
@@ -288,31 +240,18 @@ class SrdfSphere(Element):
 
     def _check(self) -> None:
         if self.radius < 0:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"sphere radius must be at least 0 m, found {self.radius}",
-                target="SrdfSphere",
-                field=("radius",),
-            )
-        places: tuple[tuple[str, float, FieldPath], ...] = (
-            ("center_x", self.center_x, ("center", 0)),
-            ("center_y", self.center_y, ("center", 1)),
-            ("center_z", self.center_z, ("center", 2)),
-            ("radius", self.radius, ("radius",)),
-        )
-        for name, number, field in places:
-            if not is_finite(number):
-                raise not_finite(number, name, f"SrdfSphere.{name}", field)
+            message = f"sphere radius must be at least 0 m, found {self.radius}"
+            raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "SrdfSphere", field=("radius",))
+        for index, name in enumerate(("center_x", "center_y", "center_z")):
+            if not is_finite(getattr(self, name)):
+                raise not_finite(getattr(self, name), name, f"SrdfSphere.{name}", ("center", index))
+        require_finite(self, "radius")
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class LinkSphereApproximation(Element):
-    """Spheres, or none, in place of the shape of a link: `<link_sphere_approximation link>`.
-
-    Raises:
-        RobotValidationError: NAME_EMPTY for a blank link.
-
-    """
+    """Spheres, or none, in place of the shape of a link: `<link_sphere_approximation link>`."""
 
     TAG = "link_sphere_approximation"
 
@@ -337,7 +276,8 @@ _MEMBERS: Mapping[str, KeySpec] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class SemanticRobotDescription(Element):
     """The SRDF of a robot: `<robot name>`, with an empty name until the robot is known.
 
@@ -365,14 +305,14 @@ class SemanticRobotDescription(Element):
         for name, spec in _MEMBERS.items():
             members = getattr(self, name)
             if not isinstance(members, NamedTable):
-                set_field(self, name, NamedTable(spec, members))
+                set_field(self, name, NamedTable(members, spec))
 
     @property
     def is_empty(self) -> bool:
         """True for a description without members and raw XML."""
         return self == SemanticRobotDescription(self.robot_name)
 
-    def merge_with(self, other: SemanticRobotDescription) -> SemanticRobotDescription:
+    def merge_with(self, other: "SemanticRobotDescription") -> Self:
         """Return this description followed by the members of the other, under the name of this one.
 
         A collision pair or link without default collisions that both have is kept once, with the reason given here.
@@ -383,18 +323,17 @@ class SemanticRobotDescription(Element):
         """
         members = {name: getattr(self, name).extended(getattr(other, name)) for name in _MEMBERS}
         attributes = dict(self.extra_attributes)
-        return replace(
-            self,
+        return self.with_fields(
             **members,
             extra_elements=(*self.extra_elements, *other.extra_elements),
             extra_inside=(*self.extra_inside, *other.extra_inside),
             extra_attributes=tuple({**attributes, **dict(other.extra_attributes), **attributes}.items()),
         )
 
-    def normalized(self) -> SemanticRobotDescription:
+    def normalized(self) -> Self:
         """Return it with every collection sorted by name; a collision pair counts by its links in order.
 
         The members of a group stay in their order, and so do the two links of a pair.
         """
         members: dict[str, Any] = {name: sorted(getattr(self, name), key=spec.key) for name, spec in _MEMBERS.items()}
-        return replace(self, **members)
+        return self.with_fields(**members)

@@ -1,9 +1,7 @@
 """Transmissions: how actuators move joints."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import attrgetter
 from typing import Annotated, ClassVar, Self
@@ -21,7 +19,7 @@ from linkforge_compile.core.fields import (
     require_finite,
 )
 from linkforge_compile.core.naming import require_name, require_unique_names, require_valid_characters
-from linkforge_compile.core.part import Element, FreePart, FrozenMap, Stating
+from linkforge_compile.core.part import Element, FreePart, FrozenMap, Stating, extras_last
 from linkforge_compile.units import POSITION
 
 
@@ -42,7 +40,8 @@ JOINTS_AND_ACTUATORS: dict[str, int] = {
 """The number of joints, and of actuators, by type."""
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class _TransmissionEnd(Element, Stating):
     """What a joint and an actuator of a transmission have in common."""
 
@@ -79,7 +78,7 @@ class _TransmissionEnd(Element, Stating):
 
     def normalized(self) -> Self:
         """Return it with its interfaces sorted."""
-        return replace(self, hardware_interfaces=tuple(sorted(self.hardware_interfaces)))
+        return self.with_fields(hardware_interfaces=tuple(sorted(self.hardware_interfaces)))
 
 
 class TransmissionJoint(_TransmissionEnd):
@@ -95,7 +94,6 @@ class TransmissionJoint(_TransmissionEnd):
 
     """
 
-    __slots__ = ()
     TAG = "joint"
     name: Annotated[str, Reference("joint", key="")]
     what = "transmission joint"
@@ -105,13 +103,13 @@ class TransmissionJoint(_TransmissionEnd):
 class TransmissionActuator(_TransmissionEnd):
     """An actuator that drives a transmission: `<actuator name>`; otherwise as TransmissionJoint."""
 
-    __slots__ = ()
     TAG = "actuator"
     what = "transmission actuator"
     name_target = "ActuatorName"
 
 
-@dataclass(frozen=True, slots=True)
+@extras_last
+@dataclass(frozen=True)
 class Transmission(Element):
     """Joints and the actuators that move them: `<transmission name>`.
 
@@ -159,10 +157,9 @@ class Transmission(Element):
                 field=("actuators" if len(self.joints) == count else "joints",),
             )
 
-    def normalized(self) -> Transmission:
+    def normalized(self) -> Self:
         """Return it with joints and actuators sorted by name, and their interfaces sorted."""
-        return replace(
-            self,
+        return self.with_fields(
             joints=tuple(joint.normalized() for joint in sorted(self.joints, key=attrgetter("name"))),
             actuators=tuple(actuator.normalized() for actuator in sorted(self.actuators, key=attrgetter("name"))),
         )
@@ -175,7 +172,7 @@ class Transmission(Element):
         actuator_name: str | None = None,
         mechanical_reduction: float = 1.0,
         hardware_interfaces: Sequence[str] | None = None,
-    ) -> Transmission:
+    ) -> Self:
         """Return a transmission of one joint, which takes the reduction, and one actuator, which has 1.
 
         The actuator is called `JOINT_motor` unless named; both have the interfaces given, `position` for None.
@@ -194,7 +191,7 @@ class Transmission(Element):
         actuator2_name: str | None = None,
         mechanical_reduction: float = 1.0,
         hardware_interfaces: Sequence[str] | None = None,
-    ) -> Transmission:
+    ) -> Self:
         """Return a transmission of two joints, which take the reduction, and two actuators, which have 1.
 
         An actuator is called `JOINT_motor` unless named; all have the interfaces given, `position` for None.
@@ -210,7 +207,7 @@ class Transmission(Element):
         pairs: Sequence[tuple[str, str | None]],
         reduction: float,
         hardware_interfaces: Sequence[str] | None,
-    ) -> Transmission:
+    ) -> Self:
         interfaces = tuple(hardware_interfaces or (HW_IF_POSITION,))
         return cls(
             name,

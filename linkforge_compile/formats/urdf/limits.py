@@ -61,13 +61,13 @@ def check_capsules(robot: Robot) -> Iterator[Diagnostic]:
     if capsule is None:
         return
     yield NEW_GEOMETRY.at(capsule.source)
-    if robot.version_stated and robot.version == "1.0":
+    if robot.is_version_written and robot.version == "1.0":
         yield OLD_VERSION.at(robot.source, "version", version=robot.version)
 
 
 def check_version(robot: Robot) -> Iterator[Diagnostic]:
     """The `version` of a robot is that of the URDF language, not that of the robot's design."""
-    if robot.version_stated and robot.version not in _READ_VERSIONS:
+    if robot.is_version_written and robot.version not in _READ_VERSIONS:
         yield UNKNOWN_VERSION.at(robot.source, "version", version=robot.version)
 
 

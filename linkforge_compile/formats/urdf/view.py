@@ -29,7 +29,7 @@ _CAPSULE_VERSION = "1.1"
 
 def stated_version(robot: Robot) -> str | None:
     """Return the `version` that the file states: the author's, else the one that its capsules need, else None."""
-    if robot.version_stated:
+    if robot.is_version_written:
         return robot.version
     return _CAPSULE_VERSION if any(capsules(robot)) else None
 
