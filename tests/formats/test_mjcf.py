@@ -238,3 +238,11 @@ def test_parts_without_counterpart_are_reported_by_kind():
     assert reported(TURNING + "transmissions: {gear: {type: t, joints: {turn: }, actuators: {motor: }}}\n") == [
         "LF7405 MJCF has no transmissions; that of 'gear' is left out"
     ]
+
+
+def test_keeping_a_fixed_joint_is_no_loss():
+    kept = "links: {base: , tip: }\njoints: {weld: {type: fixed, parent: base, child: tip, gazebo: {SETTING}}}"
+    assert reported(kept.replace("SETTING", "preserveFixedJoint: true")) == []
+    assert reported(kept.replace("SETTING", "stop_cfm: 0.5")) == [
+        "LF7405 MJCF has no settings for Gazebo; that of 'weld' is left out"
+    ]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.diagnostics.codes.formats import (
     IMPOSSIBLE_FOR_MUJOCO,
     MASSLESS_IN_MUJOCO,
@@ -98,13 +100,19 @@ def _lost_parts(robot: Robot) -> Iterator[Loss]:
             yield loss, sensor.name, sensor.source, ("type",)
     for transmission in robot.transmissions:
         yield "transmissions", transmission.name, transmission.source, ()
-    for block in robot.gazebo_elements:
+    for block in filter(_has_settings, robot.gazebo_elements):
         yield "settings for Gazebo", block.reference or robot.name, block.source, ()
     for joint in robot.joints:
         if joint.safety_controller:
             yield "safety controllers", joint.name, joint.source, ("safety_controller",)
     yield from _lost_textures(robot)
     yield from _lost_xml(robot)
+
+
+def _has_settings(block: GazeboElement) -> bool:
+    """Whether a block has more than what keeps a fixed joint, as MJCF keeps them all."""
+    others = block.properties.keys() - set(KEEP_FIXED_JOINT)
+    return bool(others) or replace(block, properties={}) != GazeboElement(block.reference)
 
 
 def _lost_textures(robot: Robot) -> Iterator[Loss]:
