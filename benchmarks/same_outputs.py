@@ -129,10 +129,12 @@ def commands_for(robot: str, out: Path) -> Iterator[tuple[str, list[str]]]:
     """Yield the commands to run on a robot, with their names."""
     if robot.endswith(URDF):
         spec = f"{out}/imported.robot.yaml"
-        yield "import", ["import", robot, "-o", spec]
+        srdf = Path(ROOT, robot).with_suffix(".srdf")
+        with_srdf, to_srdf = (["--srdf", str(srdf)], ["-o", f"{out}/again.srdf"]) if srdf.is_file() else ([], [])
+        yield "import", ["import", robot, *with_srdf, "-o", spec]
         if robot.endswith(".urdf"):
             yield "check", ["check", "--diagnostics", "json", robot]
-        yield "compile import", ["compile", spec, "-o", f"{out}/again.urdf", "-o", f"{out}/again.srdf"]
+        yield "compile import", ["compile", spec, "-o", f"{out}/again.urdf", *to_srdf]
         return
     yield "check", ["check", "--diagnostics", "json", robot]
     yield "check text", ["check", robot]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.export_spec import write_spec
-    from linkforge_compile.formats import (
+    from linkforge_compile.formats.render import (
         render_srdf,
         render_srdf_with_map,
         render_templates,
@@ -81,11 +81,11 @@ _HOMES = {
     "compile_file": "pipeline",
     "compile_text": "pipeline",
     "import_urdf": "importing",
-    "render_srdf": "formats",
-    "render_srdf_with_map": "formats",
-    "render_templates": "formats",
-    "render_urdf": "formats",
-    "render_urdf_with_map": "formats",
+    "render_srdf": "formats.render",
+    "render_srdf_with_map": "formats.render",
+    "render_templates": "formats.render",
+    "render_urdf": "formats.render",
+    "render_urdf_with_map": "formats.render",
     "write_spec": "export_spec",
 }
 

@@ -15,7 +15,8 @@ from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.expand.uses import charge_entries
-from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import SRDF, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
@@ -150,16 +151,18 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     report = group_alike(sink.sorted())
     if text is None or urdf.text is not None or not urdf.path.is_file():
         return Import(text, report)
-    return Import(text, report, _origin(urdf.path, srdf, arguments, loader))
+    return Import(text, report, _origin(urdf.path, srdf, arguments, settings, loader))
 
 
-def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, loader: Loader) -> Origin:
+def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, settings: Settings, loader: Loader) -> Origin:
     values = ((name, entry.value) for name, entry in arguments.entries.items())
     assignments = tuple(f"{name}:={value.text}" for name, value in values if isinstance(value, YamlScalar))
     # Not the files again: one may be a pipe.
     texts = {source.path: source.text.encode() for source in loader.sources if source.path}
     others = (file.read_bytes() for file in loader.files if file not in texts and file.is_file())
-    return Origin(urdf, srdf, assignments, digest_of((*texts.values(), *others)))
+    packages = {name: Path(place) for name, place in (settings.packages or {}).items()}
+    digest = digest_of((*texts.values(), *others))
+    return Origin(urdf, srdf, assignments, digest, packages, settings.allow_outside)
 
 
 def _imported_text(

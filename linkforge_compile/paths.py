@@ -168,6 +168,20 @@ def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
         yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
 
 
+def packages_in_environment() -> dict[str, Path]:
+    """Return the folders of all packages that AMENT_PREFIX_PATH and ROS_PACKAGE_PATH name, the first of each name."""
+    folders: dict[str, Path] = {}
+    for prefix in search_path("AMENT_PREFIX_PATH"):
+        for folder in filter(is_folder, sorted(prefix.glob("share/*"))):
+            folders.setdefault(folder.name, folder)
+    for root in search_path("ROS_PACKAGE_PATH"):
+        folders.setdefault(package_name(root) or "", root)
+        for manifest in (*sorted(root.glob("*/package.xml")), *sorted(root.glob("*/*/package.xml"))):
+            folders.setdefault(manifest.parent.name, manifest.parent)
+    folders.pop("", None)
+    return folders
+
+
 def unknown_package(
     where: Span | None,
     name: str,

@@ -106,6 +106,21 @@ def test_outputs_are_those_of_the_code_that_is_given(tmp_path: Path):
         run_all([robot], tmp_path)
 
 
+def test_the_record_of_a_urdf_has_what_its_import_compiles_to(tmp_path: Path):
+    robot = '<robot name="r"><link name="a"/></robot>'
+    alone, planned = tmp_path / "alone.urdf", tmp_path / "planned.urdf"
+    alone.write_text(robot, "utf-8")
+    planned.write_text(robot, "utf-8")
+    semantic = '<robot name="r"><group name="g"><link name="a"/></group></robot>'
+    planned.with_suffix(".srdf").write_text(semantic, "utf-8")
+    outputs = run_all([alone, planned], ROOT)
+    files = {name.removeprefix(f"{tmp_path}/") for name in outputs if " -> " in name}
+    written = {
+        f"{name}.urdf -> {file}" for name in ("alone", "planned") for file in ("again.urdf", "imported.robot.yaml")
+    }
+    assert files == written | {"planned.urdf -> again.srdf"}
+
+
 @pytest.mark.skipif(not Path(sys.prefix, "bin", "linkforge").exists(), reason="not installed in an environment")
 def test_an_environment_that_exists_is_measured_as_it_is(tmp_path: Path):
     figures = tmp_path / "figures.json"

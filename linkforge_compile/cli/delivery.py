@@ -72,8 +72,20 @@ def _print_status(
 
     states = Counter("written" if path in written else "up to date" for path in paths)
     files = "".join(f", {count(number, 'file')} {state}" for state, number in states.items())
-    specs = count(len({build.spec for build in builds}), "spec")
-    print_status(f"compiled {specs}{files}: {summary(diagnostics)}", arguments)
+    print_status(f"{_verb(arguments)} {_right_specs(builds, right)}{files}: {summary(diagnostics)}", arguments)
+
+
+def _verb(arguments: argparse.Namespace) -> str:
+    return "checked" if arguments.check else "compiled"
+
+
+def _right_specs(builds: Sequence[Build], right: Sequence[Build]) -> str:
+    """Return such as "3 specs", or "1 of 3 specs" where others have errors in a variant."""
+    specs = {build.spec for build in builds}
+    faulty = {build.spec for build in builds if build not in right}
+    if not faulty:
+        return count(len(specs), "spec")
+    return f"{len(specs) - len(faulty) or 'none'} of {count(len(specs), 'spec')}"
 
 
 def _write(builds: Sequence[Build], further: Sequence[Output] = ()) -> frozenset[Path]:

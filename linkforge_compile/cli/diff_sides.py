@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from argparse import Namespace
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -19,11 +20,13 @@ from linkforge_compile.cli.options import (
     read_unseekable,
     require_file,
 )
-from linkforge_compile.cli.reports import errors_of, report
+from linkforge_compile.cli.reports import errors_of
+from linkforge_compile.diagnostics import Note
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.cli.git_tree import GitTree
+    from linkforge_compile.compare import Difference
     from linkforge_compile.core import Robot
     from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.source import Span
@@ -76,7 +79,10 @@ class Side(NamedTuple):
     def all_packages(self, arguments: Namespace) -> dict[str, str]:
         """Return the folders of packages, of both sides and of this one; those in the repository as of its revision."""
         packages = {**packages_of(arguments), **self.packages}
-        return {name: str(self.tree.path(folder)) if self.tree else folder for name, folder in packages.items()}
+        if self.tree is None:
+            return packages
+        found = {name: str(folder) for name, folder in self.tree.packages().items()}
+        return {**found, **{name: str(self.tree.folder(folder)) for name, folder in packages.items()}}
 
     @property
     def has_semantic(self) -> bool:
@@ -130,13 +136,14 @@ def share_out(common: Sequence[str], sides: Sequence[Side], arguments: Namespace
     return [[pair for pair in common if (name := name_set_by(pair)) in own or name not in known] for own in names]
 
 
-def load(side: Side, common: Iterable[str], arguments: Namespace) -> Robot | None:
-    """Return the robot of a side; None if it has errors, which are reported."""
+def load(side: Side, common: Iterable[str], arguments: Namespace) -> tuple[Robot | None, Sequence[Diagnostic]]:
+    """Return the robot of a side, None if it cannot be read, and its errors."""
     own = Namespace(**vars(arguments))
     own.parameters = [*(pair for pair in common if name_set_by(pair) not in side.parameters), *side.assignments]
     own.variant = side.variant or arguments.variant
     packages = side.all_packages(arguments)
     own.packages = [f"{name}={folder}" for name, folder in packages.items()]
+    faults: list[Diagnostic] = []
     if side.is_urdf:
         from linkforge_compile.importing import import_urdf
         from linkforge_compile.pipeline import compile_text
@@ -150,14 +157,33 @@ def load(side: Side, common: Iterable[str], arguments: Namespace) -> Robot | Non
             allow_outside=arguments.allow_outside,
             text=side.text,
         )
-        faults = (*errors_of(imported.diagnostics), *imported.losses)
-        if report(_as_in_git(faults, side.tree), arguments) or imported.text is None:
-            return None
+        faults += [*errors_of(imported.diagnostics), *imported.losses]
+        if errors_of(faults) or imported.text is None:
+            return None, _as_in_git(faults, side.tree)
         compilation = compile_text(imported.text, name=name, folder=Path(side.file).parent)
     else:
+        own.parameters = _with_files_of(side, own.parameters, packages, arguments)
         compilation = compile_spec(side.file, [], own, text=side.text)
-    faults = tuple(errors_of(compilation.diagnostics))
-    return None if report(_as_in_git(faults, side.tree), arguments) else compilation.robot
+    faults += errors_of(compilation.diagnostics)
+    return compilation.robot, _as_in_git(faults, side.tree)
+
+
+def _with_files_of(
+    side: Side, pairs: Sequence[str], packages: Mapping[str, str], arguments: Namespace
+) -> Sequence[str]:
+    """Return settings of parameters in which a value of type `file` is the file in the revision of a side."""
+    if side.tree is None or not pairs:
+        return pairs
+    from linkforge_compile.pipeline import parameters_of
+
+    listing, _ = parameters_of(side.file, packages=packages, allow_outside=arguments.allow_outside)
+    files = {one.name for one in listing.parameters if one.type == "file"} if listing else set()
+    mapped: list[str] = []
+    for pair in pairs:
+        start, equals, value = pair.partition("=")
+        is_path = name_set_by(pair) in files and value and "://" not in value
+        mapped.append(f"{start}{equals}{side.tree.path_as_typed(value)}" if is_path else pair)
+    return mapped
 
 
 def _as_in_git(diagnostics: Sequence[Diagnostic], tree: GitTree | None) -> Sequence[Diagnostic]:
@@ -171,9 +197,25 @@ def _as_in_git(diagnostics: Sequence[Diagnostic], tree: GitTree | None) -> Seque
         return span._replace(file=replace(span.file, name=name, path=None))
 
     return [
-        replace(one, span=named(one.span), notes=tuple(replace(note, span=named(note.span)) for note in one.notes))
+        replace(
+            one,
+            message=tree.in_words(one.message),
+            span=named(one.span),
+            notes=tuple(Note(tree.in_words(note.message), named(note.span)) for note in one.notes),
+        )
         for one in diagnostics
     ]
+
+
+def name_as_git(differences: Iterable[Difference], tree: GitTree) -> Iterator[Difference]:
+    """Yield differences with the files of a revision named as git names them, without those that only differ in that.
+
+    Absolute paths, such as those of `path()` in specs and `$(find)` in xacros, lead to the temporary copy.
+    """
+    for one in differences:
+        before, after = (json.dumps(value, ensure_ascii=False) for value in (one.before, one.after))
+        if before.replace(str(tree.copy), str(tree.top)) != after:
+            yield replace(one, before=json.loads(tree.in_words(before)), text=tree.in_words(one.text))
 
 
 def as_urdfs(

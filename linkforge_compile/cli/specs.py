@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -40,10 +40,22 @@ def find_specs_of(words: Sequence[str], arguments: argparse.Namespace) -> FoundS
     """
     unread: list[Diagnostic] = []
     by_word = {word: _find(word, arguments, unread.append) if is_folder(word) else (word,) for word in words}
-    specs = tuple(dict.fromkeys(spec for some in by_word.values() for spec in some))
+    specs = _without_repeats(spec for some in by_word.values() for spec in some)
     in_folders = frozenset(spec for word, some in by_word.items() if is_folder(word) for spec in some)
     empty = (NO_SPEC_BELOW.at(None, path=word) for word, below in by_word.items() if not below)
     return FoundSpecs(specs, in_folders.difference(words), tuple(unread or empty))
+
+
+def _without_repeats(specs: Iterable[str]) -> tuple[str, ...]:
+    """Return the specs without those that are another one by a longer way, such as `./arm.robot.yaml`.
+
+    A link to a spec is one by itself: its outputs have its own name.
+    """
+    by_path: dict[str, str] = {}
+    for spec in specs:
+        folder, name = os.path.split(spec)
+        by_path.setdefault(spec if spec == "-" else os.path.join(os.path.realpath(folder), name), spec)  # noqa: PTH118
+    return tuple(by_path.values())
 
 
 def _find(word: str, arguments: argparse.Namespace, report: Callable[[Diagnostic], object]) -> tuple[str, ...]:

@@ -106,10 +106,13 @@ def _faults(comment: Suppression, used: Collection[tuple[str, int, str]], is_who
 
 
 def without_repeats(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return diagnostics of several specs, each once: specs that use the same module repeat those of the module."""
-    first: dict[str, Diagnostic] = {}
+    """Return diagnostics of several specs, each once: specs that use the same module repeat those of the module.
+
+    One of the command line, such as an unknown parameter, is about the spec that its notes name.
+    """
+    first: dict[object, Diagnostic] = {}
     for one in diagnostics:
-        first.setdefault(str(one), one)
+        first.setdefault(str(one) if one.span and one.span.file.path else (str(one), *map(str, one.notes)), one)
     return tuple(first.values())
 
 

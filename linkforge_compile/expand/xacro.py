@@ -67,7 +67,7 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     (main, *others), imported = robot
     tree, folder = imported.tree, use.path.parent
     included = {file: SpecFile(file, tree, folder, use.package) for file in others}
-    return SpecFile(main, tree, folder, use.package, included, use.packages)
+    return SpecFile(main, tree, folder, use.package, included, use.packages, imported.renamed)
 
 
 def read_xacro(
@@ -217,13 +217,8 @@ class WrittenElements:
 
             file = self.main if number == 0 else self.open(self._paths[number])
             document = read_xml(file, Diagnostics()) if file else None
-            self._elements[number] = tuple(in_order(document.root)) if document else ()
+            self._elements[number] = tuple(document.root.walk()) if document else ()
         return self._elements[number]
-
-
-def in_order(element: XmlElement) -> list[XmlElement]:
-    """Return an element and all elements in it in document order, as xacro's parser counts them."""
-    return [element, *(inner for child in element.children for inner in in_order(child))]
 
 
 @dataclass(frozen=True)

@@ -161,11 +161,11 @@ def _axis(axis: ElementReader) -> YamlNode:
 
 def _limits_of(joint: ElementReader, joint_type: JointType) -> YamlNode | None:
     if joint_type in NEED_LIMITS:
-        return joint.essential_child("limit", lambda limit: _limits(limit, joint_type))
-    return joint.child("limit", lambda limit: _limits(limit, joint_type))
+        return joint.essential_child("limit", lambda limit: _limits(limit, joint, joint_type))
+    return joint.child("limit", lambda limit: _limits(limit, joint, joint_type))
 
 
-def _limits(limit: ElementReader, joint_type: JointType) -> YamlNode:
+def _limits(limit: ElementReader, joint: ElementReader, joint_type: JointType) -> YamlNode:
     lower, upper = (number_of(limit.element.get(name) or "0") for name in ("lower", "upper"))
     reversed_ends: tuple[str, ...] = ()
     if lower is not None and upper is not None and lower > upper:
@@ -173,18 +173,19 @@ def _limits(limit: ElementReader, joint_type: JointType) -> YamlNode:
         reversed_ends = ("lower", "upper")
     if joint_type not in NEED_LIMITS:
         require_parts(limit, JointLimits)
-    zeros = dict(_zeros_for_negative(limit)) if joint_type in NEED_LIMITS else {}
+    zeros = dict(_zeros_for_negative(limit, joint)) if joint_type in NEED_LIMITS else {}
     # If a joint needs limits, incomplete ones are read, and compiling the spec reports what they lack.
     return limit.map(**read_numbers(limit, JointLimits, joint_type.motion, without=(*reversed_ends, *zeros)), **zeros)
 
 
-def _zeros_for_negative(limit: ElementReader) -> Iterator[tuple[str, YamlNode]]:
+def _zeros_for_negative(limit: ElementReader, joint: ElementReader) -> Iterator[tuple[str, YamlNode]]:
     """Yield 0 for an effort or velocity below 0, which urdfdom reads and Pinocchio refuses; vendors write -1."""
     for name in ("effort", "velocity"):
         value = number_of(limit.element.get(name) or "")
         if value is not None and value < 0:
-            attribute = limit.attribute(name)
-            limit.draft.diagnostics.append(NEGATIVE_LIMIT.at(attribute.span, name=name, value=attribute.value))
+            attribute, joint_name = limit.attribute(name), joint.element.get("name")
+            report = NEGATIVE_LIMIT.at(attribute.span, joint=joint_name, name=name, value=attribute.value)
+            limit.draft.diagnostics.append(report)
             yield name, limit.draft.word("0", attribute)
 
 

@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
-from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint, Ros2ControlType
+from linkforge_compile.core.models.ros2_control import (
+    Ros2Control,
+    Ros2ControlGpio,
+    Ros2ControlJoint,
+    Ros2ControlType,
+)
 from linkforge_compile.core.models.transmission import (
     JOINTS_AND_ACTUATORS,
     Transmission,
@@ -21,6 +27,7 @@ from linkforge_compile.importers.elements import (
 )
 from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.texts import read_text, read_word
+from linkforge_compile.source.xml_tree import XmlElement
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 
 
@@ -39,7 +46,7 @@ def read_ros2_control(control: ElementReader) -> YamlMap:
     kind, section = control.element.get("type"), node.get("joints")
     joints = [entry.value for entry in section] if isinstance(section, YamlMap) else []
     if kind == Ros2ControlType.ACTUATOR and len(joints) != 1:
-        raise control.cannot_represent(f"an actuator has one joint, found {len(joints)}")
+        raise _refusal_in(control) or control.cannot_represent(f"an actuator has one joint, found {len(joints)}")
     if kind == Ros2ControlType.SENSOR and any(joint.child("command_interfaces") for joint in joints):
         raise control.cannot_represent("a sensor commands nothing, found a <command_interface>")
     return node
@@ -55,8 +62,35 @@ def _hardware(hardware: ElementReader) -> YamlMap:
 def _joint(joint: ElementReader) -> YamlMap:
     node = read_element(joint, Ros2ControlJoint)
     if node.get("command_interfaces") is None and node.get("state_interfaces") is None:
-        raise joint.cannot_represent("it has neither a <command_interface> nor a <state_interface>")
+        raise _refusal_in(joint) or joint.cannot_represent(
+            "it has neither a <command_interface> nor a <state_interface>"
+        )
     return node
+
+
+def _refusal_in(part: ElementReader) -> CannotRepresentError | None:
+    """Return why an interface in a part of a block, or in a block, is refused; None if none is."""
+    inside = (one for child in part.element.children for one in (child, *child.children))
+    return next((refusal for one in inside if (refusal := part.draft.refused.get(one))), None)
+
+
+def find_commanded_again(robot: XmlElement) -> dict[XmlElement, CannotRepresentError]:
+    """Return the command interfaces that an earlier block has; with both, a spec does not compile (LF6101)."""
+    first: dict[str, XmlElement] = {}
+    found: dict[XmlElement, CannotRepresentError] = {}
+    for control in _children(robot, Ros2Control.TAG):
+        for part in _children(control, Ros2ControlJoint.TAG, Ros2ControlGpio.TAG):
+            for interface in _children(part, "command_interface"):
+                name = f"{part.get('name')}/{interface.get('name')}"
+                owner = first.setdefault(name, control)
+                if owner is not control:
+                    reason = f"'{name}' is commanded by ros2_control '{owner.get('name')}' already"
+                    found[interface] = CannotRepresentError(reason, interface.span)
+    return found
+
+
+def _children(element: XmlElement, *tags: str) -> Iterator[XmlElement]:
+    return (child for child in element.children if child.tag in tags)
 
 
 _NAME = re.compile(r"[\w.\-/]+")

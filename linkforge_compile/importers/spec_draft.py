@@ -10,12 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import (
-    ENDS_IN_A_BLANK,
-    KEPT_RAW,
-    NEGATIVE_LIMIT,
-    PATH_OF_THIS_MACHINE,
-)
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, PATH_OF_THIS_MACHINE
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
@@ -53,7 +48,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, NEGATIVE_LIMIT, PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
@@ -68,7 +63,7 @@ class CannotRepresentError(Exception):
 class SpecDraft:
     """Builds the nodes of one spec.
 
-    `refused` has elements that the language refuses, by their spans, and why. `has_quaternions` is whether the URDF is
+    `refused` has elements that the language refuses, and why. `has_quaternions` is whether the URDF is
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
     error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
     urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has;
@@ -80,7 +75,7 @@ class SpecDraft:
 
     def __init__(
         self,
-        refused: Mapping[Span, CannotRepresentError] = MappingProxyType({}),
+        refused: Mapping[XmlElement, CannotRepresentError] = MappingProxyType({}),
         *,
         has_quaternions: bool = False,
         shapes: Shapes = NO_SHAPES,
@@ -129,11 +124,11 @@ class SpecDraft:
         return YamlScalar(escaped, word_value(escaped), *_bounds(where))
 
     def _escaped(self, text: str, where: Where) -> str:
-        escaped, far = self.package_paths.in_expressions(text.replace("$(", "$$("))
-        if far is not None:
+        escaped, left = self.package_paths.in_expressions(text.replace("$(", "$$("))
+        if left is not None:
             place, begin, end = _bounds(where)
             span = place if isinstance(place, Span) else place.between(begin, end)
-            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=far))
+            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=left.name, reason=_WHY_LEFT[left.is_near]))
         return escaped
 
     def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:
@@ -195,6 +190,13 @@ class SpecDraft:
     def note_same_source(self, node: YamlNode, *others: YamlNode) -> None:
         """Note that a node replaces others, and so was made from their elements."""
         self.note_source(node, *(element for other in others for element in self._elements.get(other, ())))
+
+
+_WHY_LEFT = (
+    "as that package is not found from the spec's folder",
+    "as it does not begin the path of a file here; write \"$(path('package://...'))\" in the spec",
+)
+"""Why a folder of a package is in a spec, by whether the spec finds the package."""
 
 
 def _bounds(where: Where) -> Bounds:

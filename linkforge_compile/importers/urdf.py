@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import MATERIAL_REPEATED, SRDF_FOR_URDF
@@ -16,8 +17,8 @@ from linkforge_compile.importers.plugin_data import Blocks
 from linkforge_compile.importers.raw_xml import Shapes
 from linkforge_compile.importers.refused import find_refusals
 from linkforge_compile.importers.renaming import Renamed, rename_parts
-from linkforge_compile.importers.ros2_control import read_ros2_control, read_transmission
-from linkforge_compile.importers.spec_draft import SpecDraft, values_in
+from linkforge_compile.importers.ros2_control import find_commanded_again, read_ros2_control, read_transmission
+from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, values_in
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlElement
@@ -59,16 +60,16 @@ def read_urdf(
     _require_few_parts(root)
     document, renamed = rename_parts(document, sink)
     root = document.root
-    draft, tree = _draft(root, renamed, package_paths)
+    refused = find_commanded_again(root) if keeps_refused else {}
+    draft, tree = _draft(root, renamed, package_paths, refused=refused)
     # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
     has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
     if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
         sink.report_all(refusal.diagnostic for refusal in refusals)
-        draft, tree = _draft(
-            root, renamed, package_paths, frozenset(element for refusal in refusals for element in refusal.path)
-        )
+        at_fault = frozenset(element for refusal in refusals for element in refusal.path)
+        draft, tree = _draft(root, renamed, package_paths, at_fault=at_fault)
     draft.report(sink)
-    return Imported(tree, place_comments(document, draft, tree), (document,))
+    return Imported(tree, place_comments(document, draft, tree), (document,), renamed)
 
 
 def _require_few_parts(root: XmlElement) -> None:
@@ -80,9 +81,15 @@ def _require_few_parts(root: XmlElement) -> None:
 
 
 def _draft(
-    root: XmlElement, renamed: Renamed, package_paths: PackagePaths, at_fault: Collection[XmlElement] = ()
+    root: XmlElement,
+    renamed: Renamed,
+    package_paths: PackagePaths,
+    *,
+    refused: Mapping[XmlElement, CannotRepresentError] = MappingProxyType({}),
+    at_fault: Collection[XmlElement] = (),
 ) -> tuple[SpecDraft, YamlMap]:
     draft = SpecDraft(
+        refused,
         has_quaternions=_has_quaternions(root),
         shapes=_shape_names(root),
         at_fault=at_fault,

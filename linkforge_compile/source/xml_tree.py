@@ -99,6 +99,12 @@ class XmlElement(NamedTuple):
     def get(self, name: str) -> str | None:
         return self.values.get(name)
 
+    def walk(self) -> Iterator[XmlElement]:
+        """Yield the element and all elements in it, in document order, as xacro's parser counts them."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
     # Equal to itself only: equal elements at two places are two.
 
     def __eq__(self, other: object) -> bool:

@@ -9,7 +9,7 @@ from linkforge_compile.checks import check
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
 from linkforge_compile.core.moments import principal_moments
 from linkforge_compile.diagnostics import Severity, UnresolvedNames
-from linkforge_compile.formats import render_urdf
+from linkforge_compile.formats.render import render_urdf
 from tests.checks.robots import body, messages_of, turning
 
 FLAT_PLATE = InertiaTensor(0.001, 0.002, 0.003)

@@ -60,7 +60,7 @@ def test_errors_of_one_spec_do_not_stop_the_others(robots: Path):
     assert lines == [
         "robots/faulty.robot.yaml:4:48: error: no link named 'rood' [LF4102]",
         "error: there is no file 'nowhere.robot.yaml' [LF3001]",
-        "compiled 4 specs, 3 files written: 2 errors",
+        "compiled 2 of 4 specs, 3 files written: 2 errors",
     ]
 
 
@@ -72,7 +72,7 @@ def test_a_fault_of_a_module_that_two_specs_use_is_reported_once(robots: Path):
         )
     run = linkforge("compile", "robots/cell.robot.yaml", "robots/hall.robot.yaml", "-o", "build/", cwd=robots)
     assert run.stderr.count("no link named 'rood'") == 1
-    assert run.stderr.endswith("compiled 2 specs: 1 error\n")
+    assert run.stderr.endswith("compiled none of 2 specs: 1 error\n")
 
 
 def test_a_module_in_the_folder_that_cannot_be_compiled_by_itself_is_no_robot(robots: Path):
@@ -148,13 +148,13 @@ def test_templates_that_override_those_of_linkforge_are_for_every_spec(robots: P
 def test_every_stale_file_is_reported(robots: Path):
     linkforge("compile", *BOTH, "-o", "build/", cwd=robots)
     words = ("compile", *BOTH, "-o", "build/", "--check")
-    assert linkforge(*words, cwd=robots).stderr == "compiled 2 specs, 3 files up to date: no errors\n"
+    assert linkforge(*words, cwd=robots).stderr == "checked 2 specs, 3 files up to date: no errors\n"
     (robots / "build" / "arm.srdf").unlink()
     (robots / "build" / "hand.urdf").write_text("old\n")
     run = linkforge(*words, cwd=robots)
     assert run.returncode == 1
     assert [code in run.stderr for code in ("[LF7096]", "[LF7095]")] == [True, True]
-    assert run.stderr.endswith("compiled 2 specs: 2 errors\n")
+    assert run.stderr.endswith("checked none of 2 specs: 2 errors\n")
     assert not (robots / "build" / "arm.srdf").exists()
 
 
@@ -250,9 +250,7 @@ def test_each_of_several_variants_has_outputs_of_its_own(robots: Path):
     sizes = {name: text.partition('box size="')[2][:3] for name, text in files(robots / "build").items()}
     assert sizes == {"arm_small.urdf": "0.1", "arm_small+large.urdf": "9 1"}
     run = linkforge(*words, "--variant", "small", cwd=robots)
-    assert run.returncode == 2
-    both = "that of 'robots/arm.robot.yaml' with variant 'small' and of 'robots/arm.robot.yaml' with variant 'small'"
-    assert f"'build/arm_small.urdf' would be {both}" in run.stderr
+    assert (run.returncode, run.stderr) == (0, "wrote build/arm.urdf\n")
     run = linkforge(*words[:2], *words[4:], "--variant", "large", cwd=robots)
     assert "-o takes one folder for the outputs of several variants, found none" in run.stderr
 
@@ -261,3 +259,58 @@ def test_check_reports_several_variants_together(robots: Path):
     (robots / "robots" / "arm.robot.yaml").write_text(VARIED.replace("9 m}", "0 m}"))
     run = linkforge("check", "robots/arm.robot.yaml", "--variant", "small", "--variant", "large", cwd=robots)
     assert "note: with variant 'large' only" in run.stderr
+
+
+@pytest.mark.parametrize("variant", ["../escaped", "a/b", "a\\b", ".hidden"])
+def test_a_variant_that_cannot_be_part_of_a_file_name_is_refused(robots: Path, variant: str):
+    (robots / "robots" / "arm.robot.yaml").write_text(VARIED.replace("small:", f"'{variant}':"))
+    words = ("compile", "robots/arm.robot.yaml", "-o", "build/", "--variant", variant)
+    assert linkforge(*words, cwd=robots).returncode == 0
+    run = linkforge(*words, "--variant", "large", cwd=robots)
+    assert (run.returncode, sorted(files(robots / "build"))) == (2, ["arm.urdf"])
+    assert f"several --variant are part of the names of files, which '{variant}' cannot be" in run.stderr
+
+
+@pytest.mark.parametrize("command", [("compile", "-", "-o", "build/"), ("check", "-")])
+def test_standard_input_is_not_compiled_in_several_variants(robots: Path, command: tuple[str, ...]):
+    run = linkforge(*command, "--variant", "small", "--variant", "large", cwd=robots)
+    assert run.returncode == 2
+    assert "several --variant take files, not standard input, which can be read once" in run.stderr
+
+
+def test_a_spec_that_is_named_in_two_ways_is_compiled_once(robots: Path):
+    run = linkforge("compile", "robots/hand.robot.yaml", "./robots/../robots/hand.robot.yaml", "-o", "b/", cwd=robots)
+    assert (run.returncode, run.stderr) == (0, "wrote b/hand.urdf\n")
+    (robots / "linked.robot.yaml").symlink_to("robots/hand.robot.yaml")
+    linkforge("compile", "robots/hand.robot.yaml", "linked.robot.yaml", "-o", "links/", cwd=robots)
+    assert list(files(robots / "links")) == ["hand.urdf", "linked.urdf"]
+
+
+def test_outputs_that_differ_in_case_alone_are_refused(robots: Path):
+    (robots / "Hand.robot.yaml").write_text(HAND)
+    run = linkforge("compile", "Hand.robot.yaml", BOTH[1], "-o", "build/", cwd=robots)
+    assert run.returncode == 2
+    assert "'build/hand.urdf' would be that of 'Hand.robot.yaml' and of 'robots/hand.robot.yaml'" in run.stderr
+
+
+def test_modules_of_a_folder_that_are_left_out_have_no_outputs_that_clash(robots: Path):
+    for side in ("left", "right"):
+        (robots / side).mkdir()
+        (robots / side / "wheel.robot.yaml").write_text(
+            "linkforge: 1\nname: wheel\nparameters: {radius: {type: length}}\nlinks: {wheel: }\n"
+        )
+    uses = ", ".join(
+        f"{side}: {{use: {side}/wheel.robot.yaml, parent: base, prefix: {side}_, with: {{radius: 1}}}}"
+        for side in ("left", "right")
+    )
+    (robots / "car.robot.yaml").write_text(f"linkforge: 1\nname: car\nlinks: {{base: }}\nmodules: {{{uses}}}\n")
+    shutil.rmtree(robots / "robots")
+    run = linkforge("compile", ".", "-o", "build/", cwd=robots)
+    assert (run.returncode, run.stderr) == (0, "wrote build/car.urdf\n")
+
+
+def test_an_unknown_parameter_is_reported_for_each_spec(robots: Path):
+    run = linkforge("compile", *BOTH, "-o", "build/", "-p", "reach=1", cwd=robots)
+    assert run.stderr.count("no parameter named 'reach' [LF3020]") == 2
+    assert [f"{spec}:1:1: note: this file declares no parameters" in run.stderr for spec in BOTH] == [True, True]
+    assert run.stderr.endswith("compiled none of 2 specs: 2 errors\n")

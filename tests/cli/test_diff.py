@@ -229,3 +229,13 @@ def test_a_robot_comes_from_a_pipe(tmp_path: Path, text: str):
     with os.fdopen(reads):
         run = linkforge("diff", f"/dev/fd/{reads}", "arm.urdf", cwd=tmp_path)
     assert (run.returncode, run.stdout) == (0, f"/dev/fd/{reads} and arm.urdf are the same robot\n")
+
+
+@pytest.mark.parametrize("form", ["json", "sarif"])
+def test_the_errors_of_both_robots_are_one_document(arms: Path, form: str):
+    for name in ("old", "new"):
+        (arms / f"{name}.robot.yaml").write_text(OLD.replace("mass: 2", f"{name}_mass: 2"))
+    run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--diagnostics", form, cwd=arms)
+    assert run.returncode == 2
+    assert json.loads(run.stderr)
+    assert all(f"{name}.robot.yaml" in run.stderr for name in ("old", "new"))

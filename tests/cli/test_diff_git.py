@@ -1,8 +1,11 @@
 """`linkforge diff SPEC --git REV` and `--before-package`, with real repositories."""
 
+import hashlib
 import json
 import os
 import subprocess
+import sys
+import zlib
 from pathlib import Path
 
 import pytest
@@ -47,6 +50,29 @@ class Repository:
         self.git("add", "--all")
         self.git("commit", "-q", "--message", "state")
 
+    def state(self) -> dict[str, bytes]:
+        """Return the content of each file by its path, git's own ones included."""
+        files = (path for path in self.folder.rglob("*") if path.is_file())
+        return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in files}
+
+    def blob(self, text: str) -> str:
+        """Store a text as an object; return its name."""
+        return self._store("blob", text.encode())
+
+    def forge_tree(self, *entries: tuple[str, str, str]) -> str:
+        """Store a tree of entries (mode, name, object) that git itself might refuse to make; return its name."""
+        body = b"".join(f"{mode} {name}\0".encode() + bytes.fromhex(object_) for mode, name, object_ in entries)
+        return self._store("tree", body)
+
+    def _store(self, kind: str, body: bytes) -> str:
+        """Write a loose object, as `git hash-object --literally` does, without its checks."""
+        content = f"{kind} {len(body)}\0".encode() + body
+        name = hashlib.sha1(content, usedforsecurity=False).hexdigest()
+        path = self.folder / ".git" / "objects" / name[:2] / name[2:]
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(zlib.compress(content))
+        return name
+
 
 @pytest.fixture
 def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
@@ -67,13 +93,14 @@ def test_a_spec_and_all_that_it_includes_are_read_as_of_the_revision(repository:
     repository.write("robots/hand.robot.yaml", HAND.replace("mass: 1", "mass: 2"))
     repository.commit()
     repository.write("data/masses.yaml", "reach: 2 m\n")
+    before = repository.state()
     for cwd, spec in ((repository.folder, arm), (repository.folder / "robots", "arm.robot.yaml")):
         run = linkforge("diff", spec, "--git", "HEAD~1", cwd=cwd)
         assert run.returncode == 1, run.stderr
         assert run.stdout.startswith(f"{spec} (HEAD~1) → {spec}: 2 changed\n")
         assert "inertial/mass: 1 kg → 2 kg (+100 %)" in run.stdout
         assert "origin: moved by 1000 mm (z +1000 mm)" in run.stdout
-    assert "reach" not in repository.git("status", "--porcelain", "--", "robots")
+    assert repository.state() == before
     assert not list((repository.folder.parent / "temporary").iterdir())
 
 
@@ -96,6 +123,40 @@ def test_a_spec_that_was_renamed_is_compared_with_the_old_one(repository: Reposi
     (repository.folder / "old").mkdir()
     moved = linkforge("diff", "old/arm.robot.yaml", words[1], "--git", "HEAD~1", cwd=repository.folder)
     assert "is not in revision 'HEAD~1'; there is 'robots/arm.robot.yaml'" in moved.stderr
+
+
+@pytest.mark.parametrize(
+    ("spec", "message"),
+    [
+        ("robots", "'robots' is a folder in revision 'HEAD'; give a file in it"),
+        (".", "'.' is a folder in revision 'HEAD'; give a file in it"),
+        ("link.robot.yaml", "'link.robot.yaml' is a link to 'lib/gone.robot.yaml', which revision 'HEAD' lacks"),
+        ("data/robots", "'data/robots' is not in revision 'HEAD'"),
+        ("robots/arn.robot.yaml", "is not in revision 'HEAD'; did you mean 'arm.robot.yaml'?"),
+    ],
+)
+def test_a_spec_that_the_revision_lacks_is_an_error(repository: Repository, spec: str, message: str):
+    (repository.folder / "link.robot.yaml").symlink_to("lib/gone.robot.yaml")
+    repository.commit()
+    run = linkforge("diff", spec, "--git", "HEAD", cwd=repository.folder)
+    assert run.returncode == 2
+    assert run.stderr.rstrip("\n").endswith(message)
+
+
+def test_a_hook_in_a_linked_worktree_compares_with_its_own_repository(repository: Repository):
+    hook = repository.folder / ".git" / "hooks" / "pre-commit"
+    command = f"'{sys.executable}' -m linkforge_compile diff arm.robot.yaml --git HEAD"
+    hook.write_text(f'#!/bin/sh\nset -e; test -n "$GIT_DIR"; cd robots; {command} > ../../output\n')
+    hook.chmod(0o755)
+    repository.git("worktree", "add", "-q", "../linked")
+    repository.git("-C", "../linked", "commit", "-q", "--allow-empty", "--message", "state")
+    output = repository.folder.parent / "output"
+    assert output.read_text() == "arm.robot.yaml (HEAD) and arm.robot.yaml are the same robot\n"
+
+
+def test_the_repository_is_the_one_around_the_spec(repository: Repository):
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder, GIT_DIR="/nowhere")
+    assert (run.returncode, run.stderr) == (0, "")
 
 
 def test_an_error_in_the_revision_is_reported_at_its_place_there(repository: Repository):
@@ -126,6 +187,9 @@ def test_nothing_that_a_repository_configures_is_run(repository: Repository):
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
     assert (run.returncode, run.stderr) == (0, "")
     assert not mark.exists()
+    # What is configured runs in the commands that were not used.
+    repository.git("status")
+    assert mark.exists()
 
 
 def test_a_partial_clone_fetches_nothing(repository: Repository):
@@ -161,26 +225,43 @@ def test_a_link_that_leads_out_of_the_revision_is_not_followed(repository: Repos
 
 def test_a_forged_path_is_not_written(repository: Repository):
     blob = repository.git("hash-object", "-w", "data/masses.yaml").strip()
-    entry = f"100644 blob {blob}\t..\n".encode()
-    command = [program("git"), "mktree"]
-    made = subprocess.run(command, cwd=repository.folder, input=entry, capture_output=True, check=False, timeout=60)
-    if made.returncode:
-        # git itself refuses to make such a tree, so its bytes are written as an object.
-        body = b"100644 ..\0" + bytes.fromhex(blob)
-        forged = subprocess.run(
-            [program("git"), "hash-object", "-w", "-t", "tree", "--literally", "--stdin"],
-            cwd=repository.folder,
-            input=body,
-            capture_output=True,
-            check=True,
-            timeout=60,
-        )
-        tree = forged.stdout.decode().strip()
-    else:
-        tree = made.stdout.decode().strip()
+    tree = repository.forge_tree(("100644", "..", blob))
     run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
     assert run.returncode == 2
     assert "the revision has a file that may not be written, '..'" in run.stderr
+
+
+@pytest.mark.parametrize("inner_mode", ["120000", "100644"])
+def test_nothing_is_written_through_a_link_of_the_revision(repository: Repository, inner_mode: str):
+    victim = repository.folder.parent / "victim"
+    victim.mkdir()
+    inner = repository.forge_tree((inner_mode, "injected", repository.blob("/etc/passwd")))
+    tree = repository.forge_tree(("120000", "d", repository.blob(str(victim))), ("40000", "d", inner))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd'" in run.stderr
+    assert not list(victim.iterdir())
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+@pytest.mark.parametrize("has_files", [True, False])
+def test_a_revision_of_few_objects_and_endless_paths_is_refused(repository: Repository, has_files: bool):
+    tree = repository.forge_tree(*([("100644", "leaf", repository.blob("x"))] if has_files else []))
+    for _ in range(12):
+        tree = repository.forge_tree(*(("40000", str(number), tree) for number in range(10)))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has more than 100,000 files and folders" in run.stderr
+    assert not list((repository.folder.parent / "temporary").iterdir())
+
+
+def test_folders_deeper_than_any_robot_needs_are_refused(repository: Repository):
+    tree = repository.forge_tree(("100644", "leaf", repository.blob("x")))
+    for _ in range(1500):
+        tree = repository.forge_tree(("40000", "d", tree))
+    run = linkforge("diff", "robots/arm.robot.yaml", "--git", tree, cwd=repository.folder)
+    assert run.returncode == 2
+    assert "the revision has a file that may not be written, 'd/d/" in run.stderr
 
 
 @pytest.mark.parametrize(
@@ -246,3 +327,135 @@ def test_a_package_in_the_repository_is_read_as_of_the_revision(repository: Repo
     words = ("diff", "robots/cell.robot.yaml", "--package", "hands=vendor", "--git", "HEAD")
     run = linkforge(*words, cwd=repository.folder)
     assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stderr
+
+
+@pytest.mark.parametrize("variable", ["ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"])
+@pytest.mark.parametrize("is_src_alone", [False, True], ids=["workspace", "src"])
+def test_a_package_of_the_environment_is_read_as_of_the_revision(
+    repository: Repository, variable: str, is_src_alone: bool
+):
+    repository.write("src/hands/package.xml", "<package><name>hands</name></package>\n")
+    repository.write("src/hands/urdf/hand.robot.yaml", HAND)
+    repository.write(
+        "src/app/cell.robot.yaml",
+        "linkforge: 1\nname: cell\nlinks: {tool: }\n"
+        'modules: {hand: {use: "package://hands/urdf/hand.robot.yaml", parent: tool}}\n',
+    )
+    if is_src_alone:
+        (repository.folder / ".git").rename(repository.folder / "src" / ".git")
+        repository.folder = repository.folder / "src"
+    repository.commit()
+    src = repository.folder if is_src_alone else repository.folder / "src"
+    (src / "hands" / "urdf" / "hand.robot.yaml").write_text(HAND.replace("mass: 1", "mass: 2"))
+    value = src if variable == "ROS_PACKAGE_PATH" else install_with_links(src.parent / "install", src / "hands")
+    run = linkforge("diff", "app/cell.robot.yaml", "--git", "HEAD", cwd=src, **{variable: str(value)})
+    assert (run.returncode, "inertial/mass: 1 kg → 2 kg" in run.stdout) == (1, True), run.stdout + run.stderr
+
+
+def install_with_links(prefix: Path, package: Path) -> Path:
+    """Install each file of a package as a link, as `colcon build --symlink-install` does."""
+    for file in [file for file in package.rglob("*") if file.is_file()]:
+        link = prefix / "share" / package.name / file.relative_to(package)
+        link.parent.mkdir(parents=True, exist_ok=True)
+        link.symlink_to(file)
+    return prefix
+
+
+@pytest.mark.parametrize("option", ["-p", "--before"])
+def test_a_file_as_the_value_of_a_parameter_is_read_as_of_the_revision(repository: Repository, option: str):
+    repository.write("robots/cell.robot.yaml", CELL_WITH_FILE)
+    repository.commit()
+    repository.write("data/masses.yaml", "reach: 2 m\n")
+    for cwd, value in (
+        (repository.folder, "data/masses.yaml"),
+        (repository.folder / "robots", "../data/masses.yaml"),
+        (repository.folder / "robots", str(repository.folder / "data" / "masses.yaml")),
+    ):
+        words = [os.path.relpath(repository.folder / "robots" / "cell.robot.yaml", cwd), "--git", "HEAD"]
+        settings = [option, f"table={value}"] + (["--after", f"table={value}"] if option == "--before" else [])
+        run = linkforge("diff", *words, *settings, cwd=cwd)
+        assert (run.returncode, "moved by 1000 mm" in run.stdout) == (1, True), run.stdout + run.stderr
+    missing = linkforge("diff", "cell.robot.yaml", "--git", "HEAD", "--before", "table=new.yaml", cwd=cwd)
+    assert missing.returncode == 2
+    assert "looked for it at HEAD:robots/new.yaml" in missing.stderr
+
+
+CELL_WITH_FILE = """\
+linkforge: 1
+name: cell
+parameters: {table: {type: file, default: ../data/masses.yaml}}
+data: {facts: $(table)}
+links: {base: , tool: }
+joints: {flange: {type: fixed, parent: base, child: tool, origin: [0, 0, $(facts.reach)]}}
+"""
+
+
+def test_a_mesh_as_the_value_of_a_parameter_is_the_same_in_the_revision(repository: Repository):
+    repository.write("robots/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    spec = "links: {a: {visual: {mesh: $(m)}}, b: {visual: {mesh: a.obj}}}"
+    joints = "joints: {j: {type: fixed, parent: a, child: b}}"
+    repository.write(
+        "robots/r.robot.yaml", f"linkforge: 1\nname: r\nparameters: {{m: {{type: file}}}}\n{spec}\n{joints}\n"
+    )
+    repository.commit()
+    run = linkforge("diff", "robots/r.robot.yaml", "--git", "HEAD", "-p", "m=robots/a.obj", cwd=repository.folder)
+    assert (run.returncode, run.stderr) == (0, ""), run.stdout + run.stderr
+
+
+CELL = """\
+linkforge: 1
+name: cell
+links: {tool: }
+modules: {hand: {use: "package://hands/hand.robot.yaml", parent: tool}}
+"""
+
+
+def test_messages_name_no_temporary_file(repository: Repository):
+    repository.write("src/hands/package.xml", "<package><name>hands</name></package>\n")
+    repository.write("src/hands/hand.robot.yaml", HAND)
+    repository.write("src/app/cell.robot.yaml", CELL)
+    repository.write("src/app/arm.robot.yaml", ARM)
+    repository.commit()
+    run = linkforge("diff", "src/app/cell.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert run.stderr.count("there is one; write --package hands=./src/hands\n") == 1
+    assert "linkforge-git" not in run.stderr
+    run = linkforge("diff", "src/app/arm.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert "looked for it at HEAD:src/data/masses.yaml" in run.stderr
+    assert "linkforge-git" not in run.stderr
+
+
+def test_the_folder_of_a_package_that_the_revision_lacks_is_an_error(repository: Repository):
+    repository.write("robots/cell.robot.yaml", CELL)
+    repository.commit()
+    repository.write("new/hand.robot.yaml", HAND)
+    repository.write("vendor/hands/hand.robot.yaml", HAND)
+    words = ("diff", "robots/cell.robot.yaml", "--git", "HEAD", "--package")
+    run = linkforge(*words, "hands=new", cwd=repository.folder)
+    assert (run.returncode, "there is no folder 'new' in revision 'HEAD'\n" in run.stderr) == (2, True)
+    commit = repository.git("rev-parse", "HEAD").strip()
+    repository.git("update-index", "--add", "--cacheinfo", f"160000,{commit},vendor")
+    repository.git("commit", "-q", "--message", "submodule")
+    run = linkforge(*words, "hands=vendor/hands", cwd=repository.folder)
+    expected = "there is no folder 'vendor/hands' in revision 'HEAD'; submodules, here 'vendor', are left out\n"
+    assert (run.returncode, expected in run.stderr) == (2, True)
+    run = linkforge("diff", "vendor/hands/hand.robot.yaml", "--git", "HEAD", cwd=repository.folder)
+    assert "is not in revision 'HEAD'; submodules, here 'vendor', are left out\n" in run.stderr
+
+
+def test_the_absolute_path_of_a_file_is_the_same_in_the_revision(repository: Repository):
+    plugin = "{filename: libx.so, parameters: {file: $(path('FILE'))}}"
+    spec = f"linkforge: 1\nname: r\nlinks: {{a: }}\ngazebo: {{plugins: {{p: {plugin}}}}}\n"
+    plugin = '<plugin name="p" filename="l"><x>$(find app)/x</x></plugin>'
+    xacro = f'<robot name="r" xmlns:xacro="x"><link name="a"/><gazebo>{plugin}</gazebo></robot>\n'
+    repository.write("package.xml", "<package><name>app</name></package>\n")
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "hand.robot.yaml"))
+    repository.write("robots/r.urdf.xacro", xacro)
+    repository.commit()
+    for name in ("robots/r.robot.yaml", "robots/r.urdf.xacro"):
+        same = linkforge("diff", name, "--git", "HEAD", cwd=repository.folder)
+        assert (same.returncode, same.stderr) == (0, ""), same.stdout
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "arm.robot.yaml"))
+    run = linkforge("diff", "robots/r.robot.yaml", "--git", "HEAD", "--json", cwd=repository.folder)
+    (difference,) = json.loads(run.stdout)["differences"]
+    assert difference["before"] == "HEAD:robots/hand.robot.yaml"
+    assert difference["after"] == str(repository.folder / "robots" / "arm.robot.yaml")

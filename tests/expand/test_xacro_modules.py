@@ -320,6 +320,38 @@ def test_its_srdf_joins_under_the_prefix_and_what_it_refuses_stays_raw(vendor, t
     assert "LF8021" in {one.code.id for one in compilation.diagnostics}
 
 
+def test_raw_xml_of_a_xacro_keeps_its_lines(tmp_path: Path):
+    file = tmp_path / "c.urdf.xacro"
+    file.write_text(
+        """<robot name="c" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="mine" params="size">
+    <mine>
+      <!-- in metres -->
+      <a size="${2 * size}" first="1"/>   <!-- doubled -->
+      <b>
+        <c>some &amp; more</c>
+      </b>
+    </mine>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:mine size="2"/>
+</robot>""",
+        "utf-8",
+    )
+    assert (import_urdf(file).text or "").endswith(
+        """\
+extra: |-
+  <mine>
+    <!-- in metres -->
+    <a size="4" first="1"/>   <!-- doubled -->
+    <b>
+      <c>some &amp; more</c>
+    </b>
+  </mine>
+"""
+    )
+
+
 def test_comments_of_a_macro_stand_at_what_each_call_made(tmp_path: Path):
     file = tmp_path / "c.urdf.xacro"
     file.write_text(
@@ -364,6 +396,6 @@ links:
 joints:
   j: {type: fixed, parent: one, child: two}
 
-extra: <mine><a/><!-- theirs --></mine>
+extra: <mine><a/> <!-- theirs --></mine>
 """
     )

@@ -14,7 +14,8 @@ from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Element, Inside
 from linkforge_compile.diagnostics import Severity
 from linkforge_compile.export_spec import write_spec
-from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import SRDF, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from tests.export_spec.test_every_field import full
 from tests.export_spec.test_laws import compiled
 from tests.formats.everything import everything

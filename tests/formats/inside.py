@@ -4,7 +4,7 @@ from textwrap import dedent
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import SemanticRobotDescription
-from linkforge_compile.formats import render_srdf, render_urdf
+from linkforge_compile.formats.render import render_srdf, render_urdf
 
 
 def urdf(*, gazebo="gz", **parts) -> str:

@@ -5,7 +5,7 @@ import pytest
 from linkforge_compile.core.models.geometry import Capsule
 from linkforge_compile.core.models.link import Collision, Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.formats import render_urdf
+from linkforge_compile.formats.render import render_urdf
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
 from tests.formats.everything import everything
 

@@ -13,7 +13,8 @@ from linkforge_compile.core.models.geometry import Capsule, Color, Material, Mes
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import OTHER_QUATERNION
-from linkforge_compile.formats import FORMATS, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import FORMATS, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from tests.conftest import ROOT
 
 ARM = Robot("arm", links=[Link("base", collisions=[Collision(Sphere(0.5))]), Link("tool0")])
@@ -115,7 +116,7 @@ def test_the_order_is_the_authors():
 
 def test_bytes_are_the_same_in_every_process():
     script = (
-        "from tests.formats.everything import everything; from linkforge_compile.formats import *; "
+        "from tests.formats.everything import everything; from linkforge_compile.formats.render import *; "
         "robot = everything(); print(render_urdf(robot) + render_srdf(robot))"
     )
     outputs = {

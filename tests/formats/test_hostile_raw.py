@@ -8,7 +8,7 @@ from lxml import etree
 
 from linkforge_compile import Robot, TemplateError, compile_text, render_templates, render_urdf
 from linkforge_compile.core import Link
-from linkforge_compile.formats import render_urdf_with_map
+from linkforge_compile.formats.render import render_urdf_with_map
 from linkforge_compile.formats.xml_document import inside_text, parse_rendered, without_marks, write
 from linkforge_compile.formats.xml_text import RESERVED
 

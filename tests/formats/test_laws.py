@@ -12,7 +12,8 @@ from linkforge_compile.core.models.geometry import Material, Transform, Vector3
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Severity
-from linkforge_compile.formats import SRDF, URDF, render_srdf, render_urdf
+from linkforge_compile.formats import SRDF, URDF
+from linkforge_compile.formats.render import render_srdf, render_urdf
 from tests import strategies
 
 # The first document waits for Jinja to be imported and the templates to be compiled.

@@ -6,9 +6,9 @@ import pytest
 
 from linkforge_compile.core import Robot
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.formats import render_urdf
 from linkforge_compile.formats.element import parameter_elements
 from linkforge_compile.formats.raw import raw_elements
+from linkforge_compile.formats.render import render_urdf
 from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import RawXmlError
 

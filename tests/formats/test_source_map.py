@@ -14,8 +14,8 @@ from lxml import etree
 
 from linkforge_compile import Robot, compile_file, compile_text, render_srdf, render_urdf
 from linkforge_compile.export_spec import explain
-from linkforge_compile.formats import render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.formats.map_file import NoMapError, map_text, read_map
+from linkforge_compile.formats.render import render_srdf_with_map, render_urdf_with_map
 from linkforge_compile.formats.source_map import Mapped, SourceMap
 from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind

@@ -11,7 +11,7 @@ from linkforge_compile.core.models.srdf import (
     SrdfSphere,
     VirtualJoint,
 )
-from linkforge_compile.formats import render_srdf
+from linkforge_compile.formats.render import render_srdf
 from tests.formats.inside import srdf, xml
 
 

@@ -11,8 +11,9 @@ from jinja2 import DictLoader, TemplateRuntimeError, UndefinedError
 from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.formats import environment, render_urdf
+from linkforge_compile.formats import environment
 from linkforge_compile.formats.environment import make_environment, own_environment
+from linkforge_compile.formats.render import render_urdf
 from linkforge_compile.formats.xml_document import parse_rendered, write
 from linkforge_compile.formats.xml_text import Xml
 

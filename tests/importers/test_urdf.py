@@ -7,7 +7,7 @@ from textwrap import dedent
 
 import pytest
 
-from linkforge_compile import Import, compile_text, import_urdf, render_urdf
+from linkforge_compile import Import, check_file, compile_text, import_urdf, render_urdf
 from linkforge_compile.core.physics import rotation_matrix
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.limits import Budget, Limit
@@ -454,6 +454,38 @@ def test_hardware_comes_in_by_its_names(read):
               idle: {parameters: {pin: 4}}
             extra: <transmission name="$(prefix)inner"/>
             extra_attributes: {rw_rate: 50}""")
+
+
+ARM_OF_TWO_CONTROLS = """
+  <link name="base"/><link name="upper"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+  {controls}"""
+CONTROL = """
+  <ros2_control name="{name}" type="system"><hardware><plugin>p/P</plugin></hardware>
+    <joint name="turn"><command_interface name="position"/><state_interface name="{name}"/></joint></ros2_control>"""
+
+
+def test_a_robot_whose_interface_is_commanded_twice_comes_in_whole(tmp_path: Path):
+    controls = "".join(CONTROL.format(name=name) for name in ("left", "right"))
+    imported = imported_from(ARM_OF_TWO_CONTROLS.format(controls=controls), tmp_path)
+    assert [one.code.id for one in imported.diagnostics] == ["LF8021"]
+    compilation = compile_text(imported.text or "", name="r.robot.yaml")
+    assert not compilation.has_errors
+    urdf = render_urdf(compilation.result())
+    assert urdf.count('<command_interface name="position"/>') == 2
+    assert [one.code.id for one in check_file(tmp_path / "r.urdf").diagnostics] == ["LF6101"]
+
+
+def test_of_two_controls_that_one_macro_made_the_second_is_kept_raw(tmp_path: Path):
+    pytest.importorskip("xacro")
+    file = tmp_path / "r.urdf.xacro"
+    macro = f'<xacro:macro name="control" params="name">{CONTROL.replace("{", "${")}</xacro:macro>'
+    calls = '<xacro:control name="left"/><xacro:control name="right"/>'
+    body = ARM_OF_TWO_CONTROLS.format(controls=macro + calls)
+    file.write_text(f'<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{body}</robot>', "utf-8")
+    left, right = (import_urdf(file).text or "").split("  left:")[1].split("  right:")
+    assert "command_interfaces: [position]" in left
+    assert 'extra: <command_interface name="position"/>' in right
 
 
 def test_a_transmission_keeps_the_spelling_that_its_fields_cannot(read):

@@ -58,6 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in found.specs:
         raise UsageError("--all-variants takes files, not standard input")
+    if len(arguments.variants) > 1 and "-" in found.specs:
+        raise UsageError("several --variant take files, not standard input, which can be read once")
     checks = {spec: _merge_runs(_check(spec, assignments, arguments)) for spec in found.specs}
     # For a nameless file that is used as a module, the report of its user includes the missing name.
     parts = find_parts({spec: check.report for spec, check in checks.items()}, (MISSING_NAME,))

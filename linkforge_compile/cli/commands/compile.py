@@ -97,6 +97,7 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
+    arguments.variants = list(dict.fromkeys(arguments.variants))
     if len(words) == 1 and not is_folder(words[0]) and len(arguments.variants) < 2:
         request = parse_request(arguments)
         return deliver([_build(request, arguments)], arguments)
@@ -104,6 +105,7 @@ def run(arguments: argparse.Namespace) -> int:
     requests = _parse_several(found.specs, assignments, arguments)
     builds = [_build(request, arguments) for request in progress(requests, "compiled", arguments)]
     parts = _parts_in_folders(builds, found.in_folders)
+    _refuse_clashes([request for request in requests if request.spec not in parts])
     return deliver([build for build in builds if build.spec not in parts], arguments, found.faults)
 
 
@@ -117,22 +119,35 @@ def parse_request(arguments: argparse.Namespace) -> BuildRequest:
 
 
 def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argparse.Namespace) -> list[BuildRequest]:
-    """Return what to build of each spec; UsageError if two would have the same output."""
+    """Return what to build of each spec in each variant; UsageError for options that need a single spec."""
+    variants = arguments.variants or [None]
     if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
         found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
-        several = "variants" if len(specs) == 1 and len(arguments.variants) > 1 else "specs"
+        several = "variants" if len(specs) == 1 and len(variants) > 1 else "specs"
         raise UsageError(f"-o takes one folder for the outputs of several {several}, found {found}")
-    variants = arguments.variants or [None]
-    requests = [_parse_request(spec, variant, assignments, arguments) for spec in specs for variant in variants]
-    names: dict[Path | None, str] = {}
+    if len(variants) > 1:
+        if "-" in specs:
+            raise UsageError("several --variant take files, not standard input, which can be read once")
+        if wrong := next((name for name in variants if name and not _may_be_in_file_name(name)), None):
+            raise UsageError(f"several --variant are part of the names of files, which '{wrong}' cannot be")
+    return [_parse_request(spec, variant, assignments, arguments) for spec in specs for variant in variants]
+
+
+def _may_be_in_file_name(variant: str) -> bool:
+    return not variant.startswith(".") and not {"/", "\\"}.intersection(variant)
+
+
+def _refuse_clashes(requests: Sequence[BuildRequest]) -> None:
+    """UsageError if two builds would have the same output, also where case does not distinguish files."""
+    names: dict[str, str] = {}
     for request in requests:
         name = f"'{request.spec}'" + (f" with variant '{request.variant}'" if request.variant else "")
         for path in request.targets.paths.values():
-            if path in names:
-                both = f"that of {names[path]} and of {name}"
+            key = str(path).casefold()
+            if key in names:
+                both = f"that of {names[key]} and of {name}"
                 raise UsageError(f"'{path}' would be {both}; rename one, or compile it into another folder")
-            names[path] = name
-    return requests
+            names[key] = name
 
 
 def _parse_request(

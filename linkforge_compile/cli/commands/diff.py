@@ -8,9 +8,9 @@ from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
-from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
+from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, name_as_git, parse_side, share_out
 from linkforge_compile.cli.options import add_spec_options, split_assignments
-from linkforge_compile.cli.reports import add_report_options
+from linkforge_compile.cli.reports import add_report_options, report
 
 if TYPE_CHECKING:
     import argparse
@@ -131,8 +131,8 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
         for name, word, revision in zip(SIDES, words, (tree, None), strict=True)
     ]
     common = share_out([*arguments.parameters, *assignments], sides, arguments)
-    before, after = (load(side, pairs, arguments) for side, pairs in zip(sides, common, strict=True))
-    if before is None or after is None:
+    (before, faults), (after, more) = (load(side, pairs, arguments) for side, pairs in zip(sides, common, strict=True))
+    if report([*faults, *more], arguments) or before is None or after is None:
         return NO_ROBOT
     (before, after), not_read_back = as_urdfs(sides, (before, after), arguments)
     from linkforge_compile.cli.output import write_to_stdout
@@ -140,12 +140,13 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
 
     tolerance = TOLERANCE if arguments.tolerance is None else arguments.tolerance
     semantic = all(side.has_semantic for side in sides)
+    differences = compare(before, after, tolerance=tolerance, semantic=semantic)
     comparison = _Comparison(
         sides,
         tolerance,
         not semantic and (before.has_semantic or after.has_semantic),
         not_read_back,
-        compare(before, after, tolerance=tolerance, semantic=semantic),
+        [*name_as_git(differences, tree)] if tree else differences,
         removed_public_names(before, after, semantic=semantic),
     )
     write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))

@@ -292,7 +292,7 @@ class Robot(RobotParts):
 
         """
         # LinkForge has exporting as a method, so this one module of core imports packages above it.
-        from linkforge_compile.formats import render_urdf
+        from linkforge_compile.formats.render import render_urdf
 
         if validate:
             self._refuse_errors()
@@ -305,7 +305,7 @@ class Robot(RobotParts):
             RobotGeneratorError: With `validate`, the errors that were found, a line each.
 
         """
-        from linkforge_compile.formats import render_srdf
+        from linkforge_compile.formats.render import render_srdf
 
         if validate:
             self._refuse_errors()

@@ -43,7 +43,7 @@ MATERIAL_REPEATED = Code(
 PATH_OF_THIS_MACHINE = Code(
     "LF8025",
     _W,
-    "$(find {package}) becomes a path of this machine, as that package is not found from the spec's folder",
+    "$(find {package}) becomes a path of this machine, {reason}",
 )
 
 ENDS_IN_A_BLANK = Code("LF8024", _W, "'{name}' of <{tag}> ends in a blank, so urdfdom {effect}; delete the blank")
@@ -112,7 +112,11 @@ OTHER_ROBOT = Code(
     "this SRDF names the robot '{name}', the URDF '{robot}', and a spec has one name; it becomes '{robot}'",
 )
 NEGATIVE_LIMIT = Code(
-    "LF8104", _W, "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have"
+    "LF8104",
+    _W,
+    "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have",
+    named="joint",
+    alike=("name", "value"),
 )
 NAME_REPLACED = Code(
     "LF8105",

@@ -4,7 +4,7 @@ It reads a request from standard input, a line of JSON, and answers with one. In
 `{"find": NAME}` for the folder of a package, or null, and `{"may_read": PATH}` for true or false.
 
 Every element is marked with the index of its file and its index there, because the expanded text has no places, and
-so is every comment that follows an element on the same line, because xacro drops whitespace.
+so is every comment that follows an element on the same line, because what replaces a call ends on a line of its own.
 """
 
 from __future__ import annotations
@@ -131,11 +131,14 @@ class _Run:
             here = here.parentNode
 
     def answer(self, path: str, arguments: dict[str, str]) -> _Answer:
+        write = Element.writexml
         try:
             import xacro
             from xacro import substitution_args
         except ImportError:
             return {"missing": True}
+        # xacro replaces it by one that leaves out the space between tags, and so the lines of raw XML.
+        Element.writexml = write  # type: ignore[method-assign]
         output = io.StringIO()
         sys.stdout = sys.stderr = output
         substitution_args._eval_find = self.find
