@@ -96,22 +96,24 @@ MASSLESS_IN_MUJOCO = Code(
     "LF7402",
     _W,
     "MuJoCo refuses a moving body without mass, so '{link}' has 1e-9 kg in the MJCF; give it an inertial",
-    named="link",
+    subject="link",
 )
 IMPOSSIBLE_FOR_MUJOCO = Code(
     "LF7403",
     _W,
     "MuJoCo refuses the inertia of '{link}', so all its moments are larger in the MJCF; correct the tensor",
-    named="link",
+    subject="link",
 )
 MESH_FOR_MUJOCO = Code(
     "LF7404",
     _W,
     "mesh '{file}' is left out of the MJCF: {reason}",
-    named="file",
-    alike=("reason",),
+    subject="file",
+    grouped_by=("reason",),
 )
-NOT_IN_MJCF = Code("LF7405", _W, "MJCF has no {parts}; that of '{name}' is left out", named="name", alike=("parts",))
+NOT_IN_MJCF = Code(
+    "LF7405", _W, "MJCF has no {parts}; that of '{name}' is left out", subject="name", grouped_by=("parts",)
+)
 
 WORLD_BELOW_JOINT = Code(
     "LF7406",
@@ -123,22 +125,22 @@ ONE_ACTUATOR = Code(
     "LF7407",
     Severity.NOTE,
     "joint '{joint}' has an actuator for its first command interface, '{interface}', and none for {others} in the MJCF",
-    named="joint",
-    alike=("interface", "others"),
+    subject="joint",
+    grouped_by=("interface", "others"),
 )
 NO_GAIN = Code(
     "LF7408",
     _W,
     "the {interface} actuator of joint '{joint}' has MuJoCo's gain of 1; write `{gain}` into its parameters",
-    named="joint",
-    alike=("interface",),
+    subject="joint",
+    grouped_by=("interface",),
 )
 
 OPPOSITE_SIGN = Code(
     "LF7409",
     Severity.NOTE,
     "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
-    named="sensor",
+    subject="sensor",
 )
 
 # LF72xx: templates of users
