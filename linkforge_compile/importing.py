@@ -151,16 +151,18 @@ def _imported(urdf: _Urdf, srdf: Path | None, settings: Settings) -> Import:
     report = group_alike(sink.sorted())
     if text is None or urdf.text is not None or not urdf.path.is_file():
         return Import(text, report)
-    return Import(text, report, _origin(urdf.path, srdf, arguments, loader))
+    return Import(text, report, _origin(urdf.path, srdf, arguments, settings, loader))
 
 
-def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, loader: Loader) -> Origin:
+def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, settings: Settings, loader: Loader) -> Origin:
     values = ((name, entry.value) for name, entry in arguments.entries.items())
     assignments = tuple(f"{name}:={value.text}" for name, value in values if isinstance(value, YamlScalar))
     # Not the files again: one may be a pipe.
     texts = {source.path: source.text.encode() for source in loader.sources if source.path}
     others = (file.read_bytes() for file in loader.files if file not in texts and file.is_file())
-    return Origin(urdf, srdf, assignments, digest_of((*texts.values(), *others)))
+    packages = {name: Path(place) for name, place in (settings.packages or {}).items()}
+    digest = digest_of((*texts.values(), *others))
+    return Origin(urdf, srdf, assignments, digest, packages, settings.allow_outside)
 
 
 def _imported_text(

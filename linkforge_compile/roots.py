@@ -95,10 +95,13 @@ ANYWHERE = Roots(is_anywhere=True)
 
 
 def real_path(path: Path | str) -> str | None:
-    """Resolve links and `..`, whether or not the file exists; None for a link without access such as `/proc/1/exe`."""
+    """Resolve links and `..`, whether or not the file exists.
+
+    None for a link without access such as `/proc/1/exe`, and for a path with characters that no path can have.
+    """
     try:
         return os.path.realpath(path)
-    except OSError:
+    except (OSError, UnicodeEncodeError):
         return None
 
 

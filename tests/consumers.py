@@ -11,6 +11,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from linkforge_compile.core import Robot
+from linkforge_compile.formats import MJCF, Rendering
+
 PREFIX = Path(sysconfig.get_path("purelib")) / "cmeel.prefix"
 
 
@@ -63,3 +66,9 @@ def _with_boxes_for_meshes(robot: etree._Element) -> etree._Element:
     for texture in list(robot.iter("texture")):
         texture.getparent().remove(texture)
     return robot
+
+
+def mjcf_model(robot: Robot, **options: str):
+    """Return MuJoCo's model of a robot's MJCF, without the meshes that are not on this machine."""
+    mujoco = pytest.importorskip("mujoco")
+    return mujoco.MjModel.from_xml_string(MJCF.render(robot, Rendering(options))[0].text)

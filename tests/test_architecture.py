@@ -1,6 +1,7 @@
 """Which package may import which; read from top to bottom, the table is the order of the compiler's stages."""
 
 import ast
+import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -133,6 +134,17 @@ def test_no_files_import_each_other():
     )
     circles = [sorted(group) for group in networkx.strongly_connected_components(imports) if len(group) > 1]
     assert not circles
+
+
+def test_the_drawing_of_expand_has_its_modules_below_those_that_they_import():
+    folder = PACKAGE / "expand"
+    drawn = re.findall(r"^    (\w+)  ", ast.get_docstring(ast.parse((folder / "__init__.py").read_text("utf-8"))), re.M)
+    assert set(drawn) == {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    for place, name in enumerate(drawn):
+        imported = {
+            module.rpartition(".")[2] for module in imported_modules(folder / f"{name}.py") if ".expand." in module
+        }
+        assert imported <= set(drawn[:place]), name
 
 
 def test_no_function_of_a_package_has_the_name_of_a_module_in_it():

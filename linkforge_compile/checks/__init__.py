@@ -39,11 +39,11 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     tree.check_links,
     tree.check_joint_ends,
     tree.check_second_parents,
-    tree.check_link_circles,
+    tree.check_link_cycles,
     tree.check_single_root,
     joints.check_joint_range,
     joints.check_mimic_joints,
-    joints.check_mimic_circles,
+    joints.check_mimic_cycles,
     joints.check_mimic_freedom,
     joints.check_mimic_motion,
     joints.check_mimic_range,
@@ -89,7 +89,7 @@ SEMANTIC_CHECKS: tuple[Check, ...] = (
     srdf.check_collision_pairs,
     srdf.check_enabled_pairs,
     ros2_control.check_passive_joints,
-    groups.check_group_circles,
+    groups.check_group_cycles,
 )
 
 GROUP_CHECKS: tuple[GroupCheck, ...] = (

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import Chain
 
 
-def check_group_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_group_cycles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A group may contain groups, but not itself, not even by way of others.
 
     MoveIt drops every group of such a cycle. Take one of the subgroups out.

@@ -12,6 +12,7 @@ from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.moments import principal_moments
 from linkforge_compile.core.physics import inertial_of_shapes, rotated
 from linkforge_compile.diagnostics import Code, Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.physics import (
@@ -34,12 +35,6 @@ ROUNDING = 1e-6
 
 NEARLY_FLAT = 0.01
 """A largest moment that exceeds the sum of the others by up to this part of it is that of a thin body, measured."""
-
-ROUNDED_AWAY = 1e-12
-"""A moment below this part of the largest one is a rounding error of 0."""
-
-MAX_ROTATIONS = 60
-"""Enough Jacobi rotations for any tensor; most need fifteen."""
 
 
 def check_inertia(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -79,31 +74,6 @@ def _inertia_fault(moments: tuple[float, float, float]) -> Code | None:
     if excess > NEARLY_FLAT * large:
         return IMPOSSIBLE_INERTIA
     return FLATTER_THAN_A_PLATE if excess > ROUNDING * large else None
-
-
-def principal_moments(inertia: InertiaTensor) -> tuple[float, float, float]:
-    """Return the eigenvalues of the tensor, smallest first [kg·m²]; exactly 0 for rounding errors.
-
-    Jacobi rotations keep small moments exact where a closed formula loses them to the rounding of the large ones, and
-    numpy is not always installed.
-    """
-    xx, yy, zz = inertia.ixx, inertia.iyy, inertia.izz
-    xy, xz, yz = inertia.ixy, inertia.ixz, inertia.iyz
-    for _ in range(MAX_ROTATIONS):
-        if abs(xy) + abs(xz) + abs(yz) <= 1e-15 * (abs(xx) + abs(yy) + abs(zz)):
-            break
-        # A rotation about z removes xy; then the axes change places, for the next product.
-        angle = math.atan2(math.copysign(2 * xy, xy * (xx - yy)), abs(xx - yy)) / 2
-        sine, cosine = math.sin(angle), math.cos(angle)
-        xx, yy = (
-            cosine * cosine * xx + 2 * sine * cosine * xy + sine * sine * yy,
-            sine * sine * xx - 2 * sine * cosine * xy + cosine * cosine * yy,
-        )
-        xz, yz = cosine * xz + sine * yz, cosine * yz - sine * xz
-        xx, yy, zz, xy, xz, yz = yy, zz, xx, yz, 0.0, xz
-    scale = ROUNDED_AWAY * max(abs(xx), abs(yy), abs(zz))
-    small, middle, large = sorted([moment if abs(moment) > scale else 0.0 for moment in (xx, yy, zz)])
-    return small, middle, large
 
 
 LEAST_SHARE = 0.01

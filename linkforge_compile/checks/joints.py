@@ -131,7 +131,7 @@ def check_mimic_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Di
     yield from report_unknown(_mimics(robot).values(), UNKNOWN_JOINT, robot.joints.names, unresolved)
 
 
-def check_mimic_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_mimic_cycles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """A joint may mimic one that mimics another, but at the end of the row one must be free.
 
     In a cycle none leads: MoveIt drops every mimic of the robot, other readers never end. Let one joint of

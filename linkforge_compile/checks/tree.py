@@ -80,7 +80,7 @@ def _way_to_one_parent(joint: Joint, first: Joint) -> str:
     return "correct the 'child' of one"
 
 
-def check_link_circles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
+def check_link_cycles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """No link is its own ancestor.
 
     Such links have no place in the world, and readers that walk the tree never end. One joint of the cycle

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.source import SourceRef, Span
@@ -34,16 +34,11 @@ class Note:
 
     message: str
     span: Span | None = None
+    is_brief: bool = False
+    """Whether the text form shows the place without its source line."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "message", _quotable(self.message))
-
-
-class OneOf(NamedTuple):
-    """What a diagnostic has in common with others of its code: all but the name of the part at fault."""
-
-    name: str
-    alike: tuple[object, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -60,8 +55,12 @@ class Diagnostic:
     """How many more like it are omitted; a note counts them."""
     full_text_hash: int = 0
     """A hash of the message before it was shortened, 0 if it was not; it keeps two long messages distinct."""
-    one_of: OneOf | None = None
-    """Those of one file that are alike are reported as one."""
+    subject: str = ""
+    """The part at fault, empty if diagnostics of this code are not grouped."""
+    grouped_by: tuple[object, ...] = ()
+    """The facts that agree in a group."""
+    members: tuple[Diagnostic, ...] = ()
+    """All diagnostics of the group that this one reports, empty for a single diagnostic."""
 
     @property
     def severity(self) -> Severity:
@@ -73,6 +72,14 @@ class Diagnostic:
         if self.code.ends_report:
             return sys.maxsize, "", 0, 0
         return self.span.order if self.span else (-1, "", 0, 0)
+
+    @property
+    def group(self) -> Hashable:
+        """A key that is equal for diagnostics of a file that are reported as one, None if this one is not grouped."""
+        if not self.subject:
+            return None
+        remarks = tuple(note.message for note in self.notes if note.span is None)
+        return self.code.id, self.severity, self.span.file.name if self.span else "", self.grouped_by, remarks
 
     def __str__(self) -> str:
         place = f"{self.span}: " if self.span else ""
@@ -96,9 +103,9 @@ class Code:
     in_xml: str = ""
     ends_report: bool = False
     """Whether it says that the report is incomplete: it comes last and is always shown."""
-    named: str = ""
+    subject: str = ""
     """The fact that names the part at fault, if many parts have this fault for one cause: they are grouped."""
-    alike: tuple[str, ...] = ()
+    grouped_by: tuple[str, ...] = ()
     """The facts that agree in a group."""
 
     @property
@@ -131,8 +138,17 @@ class Code:
         whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
         full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
         all_notes = (*notes, *notes_of(chain))
-        one_of = OneOf(str(facts[self.named]), tuple(facts[fact] for fact in self.alike)) if self.named else None
-        return Diagnostic(self, _quotable(whole), span, all_notes, full_text_hash=full_text_hash, one_of=one_of)
+        subject = str(facts[self.subject]) if self.subject else ""
+        grouped_by = tuple(facts[fact] for fact in self.grouped_by)
+        return Diagnostic(
+            self,
+            _quotable(whole),
+            span,
+            all_notes,
+            full_text_hash=full_text_hash,
+            subject=subject,
+            grouped_by=grouped_by,
+        )
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -18,32 +18,44 @@ _PLACES = 3
 def group_alike(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Return a report in which all diagnostics of a file that are alike are one, at the first of them.
 
-    Called on the final report in reading order: a comment that suppresses one of them leaves the others.
+    Called on a report in reading order. Groups of reports that were merged are formed anew.
     """
-    groups: dict[object, list[Diagnostic]] = {}
-    for number, one in enumerate(diagnostics):
-        file = one.span.file.name if one.span else ""
-        shared = (file, one.one_of.alike) if one.one_of else number
-        groups.setdefault((one.code.id, one.severity, shared), []).append(one)
+    groups: dict[Hashable, list[Diagnostic]] = {}
+    for number, one in enumerate(ungrouped(diagnostics)):
+        groups.setdefault(number if one.group is None else one.group, []).append(one)
     return tuple(_as_one(group) for group in groups.values())
 
 
-def _as_one(group: list[Diagnostic]) -> Diagnostic:
+def ungrouped(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield diagnostics with the members of each group in its place."""
+    for one in diagnostics:
+        yield from one.members or (one,)
+
+
+def _as_one(group: Sequence[Diagnostic]) -> Diagnostic:
     first, *others = group
-    names = dict.fromkeys(one.one_of.name for one in group if one.one_of)
-    if not others or not first.one_of:
+    if not others:
         return first
-    del names[first.one_of.name]
+    names = dict.fromkeys(one.subject for one in others if one.subject != first.subject)
     same = f"; the same for {join_names(names)}" if names else ""
-    places = [Note(one.message, one.span) for one in others if one.span]
-    rest = [Note(f"and {len(places) - _PLACES:,} more")] if len(places) > _PLACES + 1 else []
-    shown = places[:_PLACES] if rest else places
-    return replace(first, message=f"{first.message}{same}", notes=(*first.notes, *shown, *rest))
+    # A `for` makes many parts at one place, and so do two uses of a module.
+    by_place = {one.span: one for one in reversed(group) if one.span}
+    elsewhere = [one for one in others if one.span and by_place[one.span] is one]
+    places = [_place(one, first) for one in elsewhere[:_PLACES]]
+    rest = [Note(f"and {more:,} more places")] if (more := len(elsewhere) - _PLACES) > 0 else []
+    return replace(first, message=f"{first.message}{same}", notes=(*first.notes, *places, *rest), members=tuple(group))
+
+
+def _place(one: Diagnostic, first: Diagnostic) -> Note:
+    """Return a short note, with the whole message only if it differs from that of the first in more than the name."""
+    same = first.message.replace(f"'{first.subject}'", f"'{one.subject}'")
+    message = f"'{one.subject}' is here" if one.message == same else one.message
+    return Note(message, one.span, is_brief=True)
 
 
 def join_names(names: Collection[str], count: int | None = None) -> str:
     """Return "'a', 'b' and 'c'", or the first few and how many more; `count` is that of all names."""
     quoted = [f"'{name}'" for name in islice(names, SHOWN)]
     if (more := (count or len(names)) - SHOWN) > 0:
-        quoted[SHOWN - 1 :] = [f"{more + 1} more"]
+        quoted[SHOWN - 1 :] = [f"{more + 1:,} more"]
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))

@@ -82,7 +82,8 @@ def _lines(diagnostic: Diagnostic, colour: bool) -> Iterator[str]:
     yield from snippet(diagnostic.span, _COLOURS[severity] if colour else "")
     for note in diagnostic.notes:
         yield _headline(note.span, Severity.NOTE, note.message, colour)
-        yield from snippet(note.span, _COLOURS[Severity.NOTE] if colour else "")
+        if not note.is_brief:
+            yield from snippet(note.span, _COLOURS[Severity.NOTE] if colour else "")
 
 
 def _headline(span: Span | None, severity: Severity, message: str, colour: bool) -> str:

@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.syntax import (
     NOTHING_TO_IGNORE,
 )
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
+from linkforge_compile.diagnostics.grouping import group_alike, ungrouped
 from linkforge_compile.diagnostics.sink import Diagnostics
 from linkforge_compile.source import Span
 
@@ -111,9 +112,9 @@ def without_repeats(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]
     One of the command line, such as an unknown parameter, is about the spec that its notes name.
     """
     first: dict[object, Diagnostic] = {}
-    for one in diagnostics:
+    for one in ungrouped(diagnostics):
         first.setdefault(str(one) if one.span and one.span.file.path else (str(one), *map(str, one.notes)), one)
-    return tuple(first.values())
+    return group_alike(first.values())
 
 
 def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
@@ -125,7 +126,7 @@ def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic,
     first: dict[tuple[str, str, str, int], Diagnostic] = {}
     runs_of: dict[tuple[str, str, str, int], list[str]] = {}
     for run, diagnostics in runs.items():
-        for one in diagnostics:
+        for one in ungrouped(diagnostics):
             key = (one.code.id, str(one.span), one.message, one.full_text_hash)
             first.setdefault(key, one)
             runs_of.setdefault(key, []).append(run)
@@ -135,7 +136,7 @@ def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic,
             merged.append(one)
         elif one.code is not NOTHING_TO_IGNORE:  # a suppression that is used in one of the runs is useful
             merged.append(_with_note(one, runs_of[key]))
-    return tuple(sorted(merged, key=lambda one: one.order))
+    return group_alike(sorted(merged, key=lambda one: one.order))
 
 
 def _with_note(diagnostic: Diagnostic, runs: list[str]) -> Diagnostic:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Hashable, Iterable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -13,7 +13,7 @@ from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Note, Sev
 from linkforge_compile.source import Position, SourceFile, Span
 
 MAX_KEPT = 1_000
-"""How many errors a compile reports, and how many warnings and notes."""
+"""How many errors a compile reports, and how many warnings and notes, where a group counts as one."""
 
 MAX_AT_ONE_PLACE = 3
 """How many diagnostics with one code are kept for one place; a `for` may give one in each of its rounds."""
@@ -57,6 +57,8 @@ class Diagnostics:
         self._seen: set[int] = set()
         self._at: defaultdict[_Place, set[int]] = defaultdict(set)
         self._error_starts: defaultdict[SourceFile, list[Position]] = defaultdict(list)
+        # Of the warnings and notes that are kept: a group, or the number of a single one.
+        self._groups: set[Hashable] = set()
         self._left_out = 0
 
     def report(self, diagnostic: Diagnostic) -> None:
@@ -87,11 +89,14 @@ class Diagnostics:
                 insort(self._error_starts[diagnostic.span.file], diagnostic.span.start)
             at = self._at[diagnostic.code.id, diagnostic.span]
             at.add(number)
-            if len(at) > MAX_AT_ONE_PLACE:
+            if len(at) > MAX_AT_ONE_PLACE and not diagnostic.subject:
                 return False
-        if not is_error and len(self._reported) - self._errors >= MAX_KEPT:
-            self._left_out += 1
-            return False
+        if not is_error:
+            group = number if diagnostic.group is None else diagnostic.group
+            if group not in self._groups and len(self._groups) >= MAX_KEPT:
+                self._left_out += 1
+                return False
+            self._groups.add(group)
         return True
 
     def abort(self, beyond: BeyondLimitError) -> None:
@@ -134,7 +139,9 @@ class Diagnostics:
 
     def _with_count(self, last: Diagnostic) -> Diagnostic:
         """Return the last diagnostic of its code at its place, with a note on how many more there are."""
-        if last.span is None or (more := len(self._at[last.code.id, last.span]) - MAX_AT_ONE_PLACE) <= 0:
+        if last.span is None or last.subject:
+            return last
+        if (more := len(self._at[last.code.id, last.span]) - MAX_AT_ONE_PLACE) <= 0:
             return last
         note = Note(f"and {more:,} more like this at the same place")
         return replace(last, notes=(*last.notes, note), omitted=more)

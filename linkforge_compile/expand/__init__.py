@@ -6,8 +6,8 @@ What each module knows; it imports only those above it:
     loader            the files of one compile, each read once -> SpecFile
     uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes
     values            a node <-> its value in expressions; where a value was written
+    angle_tags        the tags `!degrees` and `!radians` of data files -> numbers
     evaluate          a node with expressions -> its value in one scope
-    repetition_words  a map and its shape -> which of `for` and `when` in it repeat it, and are no keys of its own
     expand_tree       a tree with expressions, `for` and `when` -> one without
     arguments         what the user sets -> Arguments; the variants of a file
     parameters        a declaration -> type and constraints, which convert a value or refuse it
@@ -15,7 +15,9 @@ What each module knows; it imports only those above it:
     file_scope        one use of a file -> the names, values and functions that its expressions know
     defaults          objects in their long form; `defaults` -> merged into links, joints and sensors
     override          a patch and a tree -> the patched tree
+    deletions         a tree and an override -> what else goes with deleted links; why each name is gone
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
+    xacro_answers     the questions of the xacro process -> where a package is, whether a file may be read
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
     expand_uses       all of this for a file, then for each file that it uses
     listing           what a file lets its user set, for `params`, editors and launch files

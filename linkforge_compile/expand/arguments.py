@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import sys
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -12,10 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
+from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.uses import is_xacro
-from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
 from linkforge_compile.units import Quantity
@@ -24,8 +26,6 @@ if TYPE_CHECKING:
     from linkforge_compile.expressions import Value
 
 COMMAND_LINE = "<command line>"
-
-_MOST_LISTED = 8
 
 
 class Unset(Enum):
@@ -100,7 +100,7 @@ def arguments_from_values(values: Mapping[str, object]) -> Arguments:
             raise TypeError(f"a parameter is set by its name, which is text, found {name!r}")
         typed = item if isinstance(item, CliArgument) else None
         value = typed.text if typed else _spec_value(name, item)
-        shown = value if isinstance(value, str) else repr(item)
+        shown = value if isinstance(value, str) else _shown(item)
         begin = f"{typed.name}:=" if typed else f"{name}="
         file = SourceFile(typed.place if typed else "<parameters>", begin + shown)
         key = YamlScalar(name, name, _span(file, 0, len(begin.rstrip(":="))))
@@ -133,8 +133,11 @@ def _span(file: SourceFile, start: int, length: int) -> Span:
 
 
 def _spec_value(name: str, value: object) -> Value:
-    if value is None or isinstance(value, bool | int | float | str | Quantity):
+    if value is None or isinstance(value, bool | float | str | Quantity):
         return value
+    if isinstance(value, int):
+        # Text with too many digits is infinite as well, which no parameter accepts.
+        return value if abs(value) <= sys.float_info.max else math.copysign(math.inf, 1 if value > 0 else -1)
     if isinstance(value, os.PathLike):
         return str(value)
     from numbers import Real
@@ -143,9 +146,16 @@ def _spec_value(name: str, value: object) -> Value:
         return float(value)
     if isinstance(value, Mapping):
         return {str(key): _spec_value(name, item) for key, item in value.items()}
-    if isinstance(value, Iterable):
+    if isinstance(value, Iterable) and not isinstance(value, bytes | bytearray):
         return tuple(_spec_value(name, item) for item in value)
     raise TypeError(f"parameter {name!r} cannot be {type(value).__name__}")
+
+
+def _shown(item: object) -> str:
+    try:
+        return repr(item)
+    except ValueError:  # Python refuses to write an integer of thousands of digits
+        return "…"
 
 
 class Variants(NamedTuple):
@@ -208,10 +218,3 @@ def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnost
     near = nearest(name, known)
     hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"
     sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint="" if near else hint, near=known))
-
-
-def listed(names: Sequence[str], last: str) -> str:
-    """Return names in quotes as messages list them, of many the first few."""
-    rest = len(names) - _MOST_LISTED
-    shown = [*(f"'{name}'" for name in names[:_MOST_LISTED]), *([f"{rest} more"] if rest > 0 else [])]
-    return alternatives(shown, last)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.modules import CHANGE_OF_DELETED, DELETED_POSE
 from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.expand.override import SECTIONS, deletes
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode
+from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import leaves_in
+from linkforge_compile.units import Quantity, parse_quantity
 
 _SEMANTIC_SECTIONS = ("groups", "virtual_joints", "end_effectors")
 
@@ -26,12 +30,15 @@ def _deleted_in(
     before: YamlMap, after: YamlMap, patch: YamlMap, sections: tuple[str, ...]
 ) -> Iterator[tuple[str, Note]]:
     deleted = ((section, entry) for section in sections for entry in before.section(section).values())
+    joints_below: defaultdict[str | None, list[str]] = defaultdict(list)
+    for joint in after.section("joints").values():
+        joints_below[_ends_of(joint)[1]].append(joint.name)
     for section, entry in deleted:
         if entry.name in after.section(section):
             continue
         child, parent = _ends_of(entry) if section in ("joints", "mount") else (None, None)
         if where := _deletion(patch, section, entry.name):
-            way_out = _way_out(entry.name, after) if section == "links" else ""
+            way_out = _way_out(joints_below[entry.name]) if section == "links" else ""
             yield entry.name, Note(f"'{entry.name}' is deleted by this override{way_out}", where)
         elif child and (where := _deletion(patch, "links", child)):
             yield entry.name, Note(f"to delete link '{child}' deletes '{entry.name}', the joint to it", where)
@@ -41,9 +48,8 @@ def _deleted_in(
             yield entry.name, Note(f"'{entry.name}' is deleted by this override", patch.span)
 
 
-def _way_out(link: str, after: YamlMap) -> str:
+def _way_out(names: list[str]) -> str:
     """Return what to write for the joints below a deleted link, "" for none."""
-    names = [name for name, joint in after.section("joints").items() if _ends_of(joint)[1] == link]
     if not names:
         return ""
     delete, reattach = (f"joints: {{{names[0]}: {change}}}" for change in ("null", "{parent: …}"))
@@ -56,6 +62,37 @@ def _deletion(patch: YamlMap, section: str, name: str) -> Span | None:
     whole = patch.entries.get(section)
     deletion = whole.value.entries.get(name) if whole and isinstance(whole.value, YamlMap) else whole
     return deletion.key.span if deletion and deletes(deletion.value) else None
+
+
+def report_lost(before: YamlMap, after: YamlMap, patch: YamlMap, sink: Diagnostics) -> None:
+    """Report what `without_links` deletes against the intent of the author: changes of a joint, and its pose.
+
+    The trees are those before and after it.
+    """
+    for section in ("joints", "mount"):
+        left, changes = after.section(section), patch.section(section)
+        for joint in before.section(section).values():
+            if joint.name in left:
+                continue
+            child, parent = _ends_of(joint)
+            is_to_child = child not in after.section("links")
+            link = (child if is_to_child else parent) or ""
+            where = _deletion(patch, "links", link) or patch.span
+            if change := changes.get(joint.name):
+                notes = [Note(f"'{link}' is deleted by this override", where)]
+                way_out = "" if is_to_child else "; an 'origin' where the module is used moves the module"
+                facts = {"name": joint.name, "link": link, "way_out": way_out}
+                sink.report(CHANGE_OF_DELETED.at(change.key.span, notes=notes, **facts))
+            elif not is_to_child and (origin := joint.value.child("origin")) and _is_moved(origin):
+                notes = [Note("the pose is written here", origin.span)]
+                sink.report(DELETED_POSE.at(where, name=joint.name, notes=notes))
+
+
+def _is_moved(origin: YamlNode) -> bool:
+    """Whether any number of a pose is not 0."""
+    values = (leaf.value for leaf in leaves_in(origin) if isinstance(leaf, YamlScalar))
+    quantities = (parse_quantity(value) if isinstance(value, str) else value for value in values)
+    return any(value.value if isinstance(value, Quantity) else value for value in quantities)
 
 
 def without_links(tree: YamlMap, links: set[str]) -> YamlMap:
@@ -85,7 +122,7 @@ def without_links(tree: YamlMap, links: set[str]) -> YamlMap:
             # The values of pairs are maps of links; those of spheres have other keys.
             of_others = part.without(*links)
             is_pairs = name != "link_sphere_approximations"
-            others = of_others.mapped(lambda one: _without_keys(one.value, links)) if is_pairs else of_others
+            others = of_others.mapped(lambda one: _without_names(one.value, links)) if is_pairs else of_others
             semantic = semantic.with_value(name, others)
     return tree.with_value("semantic", semantic)
 
@@ -102,8 +139,8 @@ def _joint_to_new_root(tree: YamlMap, deleted: set[str]) -> str:
     return only.name if only and is_below and _text_of(only, "type") == "fixed" else ""
 
 
-def _without_keys(node: YamlNode, keys: set[str]) -> YamlNode:
-    return node.without(*keys) if isinstance(node, YamlMap) else node
+def _without_names(node: YamlNode, names: set[str]) -> YamlNode:
+    return node.only(lambda entry: entry.name not in names) if isinstance(node, YamlMap) else node
 
 
 def _ends_of(joint: YamlEntry) -> tuple[str | None, str | None]:

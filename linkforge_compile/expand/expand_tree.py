@@ -18,23 +18,12 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator, report_interpolated_number
-from linkforge_compile.expand.repetition_words import (
-    FOR_AND_WHEN,
-    repeats_tag,
-    repetition_words,
-    without_words,
-)
 from linkforge_compile.expand.values import Setting, describe, node_of, with_final_paths
-from linkforge_compile.expressions import (
-    FAULT,
-    RESERVED_NAMES,
-    Fault,
-    Value,
-    as_one_expression,
-)
+from linkforge_compile.expressions import FAULT, RESERVED_NAMES, Fault, Value, as_one_expression
 from linkforge_compile.limits import Limit
 from linkforge_compile.schema import validate_computed
 from linkforge_compile.schema.json_schema import WORDS
+from linkforge_compile.schema.repetition_words import FOR_AND_WHEN, repetition_words, without_words
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind
@@ -46,24 +35,31 @@ _NAMES_ITS_JOINT = frozenset({"a frame", "a module"})
 
 
 def expand_node(
-    node: YamlNode, evaluator: Evaluator, shape: Shape = FREE, *, key: str = "", is_free: bool = False
+    node: YamlNode,
+    evaluator: Evaluator,
+    shape: Shape = FREE,
+    *,
+    key: str = "",
+    is_free: bool = False,
+    is_entry: bool = False,
 ) -> YamlNode:
     """Return the tree with all expressions and repetitions computed; a tree without any is returned as it is.
 
     Faulty parts become YamlFaults; an entry with a faulty key keeps it as written. `shape` says where `for` and
     `when` are more than keys, and with `key` what a computed value may be. `is_free` if nothing here is read as a
-    number.
+    number; `is_entry` as for `repetition_words`.
     """
     if not evaluator.expressions.is_computed(node):
         return node
     is_free = is_free or shape.is_free_part
     match node:
         case YamlScalar():
-            return validate_computed(_expand_scalar(node, evaluator, shape, is_free), key, shape, evaluator.sink)
+            computed = _expand_scalar(node, evaluator, shape, is_free)
+            return validate_computed(computed, key, shape, evaluator.sink, is_entry=is_entry)
         case YamlList():
             item_shape = shape.item or (shape if shape.is_object or shape.is_for_plugins else FREE)
             items = (
-                expand_node(copy, inner, item_shape, key=key, is_free=is_free)
+                expand_node(copy, inner, item_shape, key=key, is_free=is_free, is_entry=True)
                 for item in node
                 for inner, copy in _occurrences(item, item_shape, evaluator, is_item=True)
             )
@@ -100,13 +96,21 @@ def expand_entries(node: YamlMap, evaluator: Evaluator, shape: Shape) -> Iterato
         is_item = (
             not shape.has_names and value_shape.may_repeat and isinstance(value, YamlMap) and "for" in value.entries
         )
-        if is_item or repeats_tag(entry, shape, evaluator):
+        if is_item or _repeats_tag(entry, shape, evaluator):
             # A single object with `for` is an item of the list that may be written in its place.
             yield evaluator, YamlEntry(entry.key, YamlList((value,), value.span))
             continue
         key = entry.key if shape.has_names or shape.is_for_plugins else None
         for inner, copy in _occurrences(value, value_shape, evaluator, key=key):
             yield inner, entry if copy is value else YamlEntry(entry.key, copy)
+
+
+def _repeats_tag(entry: YamlEntry, around: Shape, evaluator: Evaluator) -> bool:
+    """Whether an entry of what a plugin reads stands for a list: its `for` has no name that is in its key."""
+    node = entry.value
+    is_repeated = around.has_elements and "for" in repetition_words(node, around, is_entry=True)
+    names = node.child("for") if is_repeated else None
+    return isinstance(names, YamlMap) and evaluator.names_in(entry.key).isdisjoint(names.entries)
 
 
 def _with_missing_for(entry: YamlEntry, evaluator: Evaluator, shape: Shape) -> Evaluator:
@@ -141,7 +145,8 @@ def _add_entry(
     else:
         value: YamlNode = entry.value
         if evaluator.expressions.is_computed(value):
-            value = expand_node(value, evaluator, around.under(entry.name), key=key.text, is_free=is_free)
+            shape, is_entry = around.under(entry.name), around.has_names or around.is_for_plugins
+            value = expand_node(value, evaluator, shape, key=key.text, is_free=is_free, is_entry=is_entry)
         is_unchanged = key is entry.key and value is entry.value
         entries[key.text] = entry if is_unchanged else YamlEntry(key, value)
 
@@ -156,7 +161,7 @@ def _expand_scalar(scalar: YamlScalar, evaluator: Evaluator, shape: Shape, is_fr
         return YamlFault(scalar.span)
     if not expressions.charge_value(value, scalar.span, evaluator.sink):
         return YamlFault(scalar.span)
-    return node_of(with_final_paths(value, shape, is_free), evaluator.place(scalar))
+    return node_of(with_final_paths(value, shape, is_free), evaluator.place(scalar), is_free)
 
 
 def _occurrences(

@@ -29,6 +29,7 @@ from linkforge_compile.expand.uses import (
     mesh_base,
     mesh_finder,
     name_from,
+    names_xacro,
     open_use,
     own_name,
     robot_part,
@@ -170,20 +171,12 @@ class _Expansion:
     ) -> tuple[SpecFile | None, Arguments]:
         """Return the file at a site, and the arguments left for it; its SRDF has `used` some, None if unknown."""
         loader = self._state.loader
-        if not self._is_xacro(site):
+        if not names_xacro(site, loader):
             return open_use(site, loader, sink), entry.arguments.without(used or ())
         from linkforge_compile.expand.xacro import open_xacro
 
         xacro = self._xacro_use(site, entry, sink)
         return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
-
-    def _is_xacro(self, site: PathSite) -> bool:
-        """Whether a site names a xacro; of a file outside of the roots nothing but its name is looked at."""
-        roots = self._state.loader.roots
-        target = locate(site, self._state.loader, Diagnostics())
-        if target is None or not roots.hold(target.path):
-            return site.text.lower().endswith(".xacro")
-        return is_xacro(target.path)
 
     def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
         from linkforge_compile.expand.xacro import XacroUse
@@ -197,7 +190,7 @@ class _Expansion:
         """Whether a use is neither circular nor too deep; reports why not."""
         files = [other.spec.file for other in use.chain]
         if use.spec.file in files[1:]:
-            sink.report(_circle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
+            sink.report(_cycle(use.chain[: files.index(use.spec.file, 1) + 1], self._state.compiled))
         elif len(files) > MAX_DEPTH:
             sink.report(USE_TOO_DEEP.at(use.bound.use, limit=MAX_DEPTH))
         else:
@@ -223,7 +216,7 @@ def _unread(entry: ModuleEntry) -> Instance:
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 
-def _circle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
+def _cycle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
     """Return the diagnostic for a chain of uses, the innermost first, that ends in the file it starts with."""
     path = [name_from(use.spec, compiled) for use in reversed(chain)]
     notes = [
@@ -263,7 +256,7 @@ def _with_semantic(
         parts = {file: SpecFile(file, tree, use.path.parent, use.package) for file in semantic.files}
         return replace(spec, tree=tree, included={**spec.included, **parts})
 
-    imported = Imported(spec.tree, Comments({}, {}))
+    imported = Imported(spec.tree, Comments({}, {}), renamed=spec.renamed)
     inside = with_use_trace(sink, (use.used.where,))
     read = with_srdf(
         imported, semantic.text, lambda tree: loader.check_spec(merged(tree), loader), inside, semantic.moved

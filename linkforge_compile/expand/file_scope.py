@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     PACKAGE_NOWHERE,
     RESERVED_NAME,
 )
+from linkforge_compile.expand.angle_tags import angle_tags
 from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
@@ -26,7 +27,7 @@ from linkforge_compile.expand.loader import Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
 from linkforge_compile.expand.uses import NameReference, PathSite, from_base, locate, mesh_base, rebased
-from linkforge_compile.expand.values import Setting, angle_tags, plain_value
+from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import (
     FAULT,
     RESERVED_NAMES,

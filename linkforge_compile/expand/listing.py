@@ -16,7 +16,7 @@ from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
-from linkforge_compile.expand.uses import SPEC_ENDINGS, XACRO, PathSite, locate, open_use
+from linkforge_compile.expand.uses import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import identity
@@ -124,7 +124,7 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
 def _list_module(site: PathSite, loader: Loader, sink: Diagnostics) -> Listing | None:
     """List what the spec or xacro at a site declares; None for any other file, and after a reported error."""
     lowered = site.text.lower()
-    if lowered.endswith(XACRO):
+    if names_xacro(site, loader):
         target = locate(site, loader, sink)
         return list_arguments(target.path, loader, sink, site.used) if target else None
     used = open_use(site, loader, sink) if lowered.endswith(SPEC_ENDINGS) else None

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
 from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
@@ -38,6 +39,7 @@ class SpecFile:
     `folder` is where its relative paths start, with symbolic links as written; None for a text without a folder.
     `package` is the package through whose `package://` it was reached; what it uses from there keeps it.
     `included` are the files merged into the tree. `packages` are package folders that using files declare.
+    `renamed` are the names of a URDF's parts in the tree, by those in the URDF, where they differ.
     """
 
     file: SourceFile
@@ -46,6 +48,7 @@ class SpecFile:
     package: Package | None = None
     included: Mapping[SourceFile, SpecFile] = field(default_factory=dict)
     packages: Mapping[str, Path] = field(default_factory=dict)
+    renamed: Mapping[str, str] = field(default_factory=dict)
 
     def part_at(self, where: Span) -> SpecFile:
         """Return the included file that holds a place, or this one: relative paths written there start in it."""
@@ -207,7 +210,8 @@ class Loader:
             return None
         if text is None:
             notes = [searched_note(path, used.text, used.where)] if used.where else []
-            near = [name for name in names_in(path.parent) if _is_srdf(name) == _is_srdf(path.name)]
+            user = used.where.file.path if used.where else None
+            near = [name for name in names_in(path.parent) if _may_be(name, path.name) and path.with_name(name) != user]
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
             self._unread.append(as_typed(path))
             return None
@@ -237,8 +241,10 @@ class Loader:
         return compose(source, tree, folder, read_included, sink)
 
 
-def _is_srdf(name: str) -> bool:
-    return ".srdf" in name.lower()
+def _may_be(file: str, name: str) -> bool:
+    """Whether a file is a suggestion for a missing name: names that have only their endings in common are not alike."""
+    (stem, *endings), (missing, *others) = file.lower().split("."), name.lower().split(".")
+    return ("srdf" in endings) == ("srdf" in others) and nearest(missing, [stem]) is not None
 
 
 def _read_urdf(source: SourceFile, sink: Diagnostics) -> ComposedFile | None:
@@ -246,7 +252,7 @@ def _read_urdf(source: SourceFile, sink: Diagnostics) -> ComposedFile | None:
     from linkforge_compile.importers.urdf import read_urdf
 
     imported = read_urdf(source, sink)
-    return ComposedFile(source, imported.tree) if imported else None
+    return ComposedFile(source, imported.tree, renamed=imported.renamed) if imported else None
 
 
 def _reach(composed: ComposedFile, folder: Path | None, package: Package | None) -> SpecFile:
@@ -256,7 +262,7 @@ def _reach(composed: ComposedFile, folder: Path | None, package: Package | None)
         path = follow_includes(folder or Path(), include_paths)
         inside = package if package is not None and path.is_relative_to(package.folder) else None
         included[file] = SpecFile(file, composed.tree, path.parent, inside)
-    return SpecFile(composed.file, composed.tree, folder, package, included)
+    return SpecFile(composed.file, composed.tree, folder, package, included, renamed=composed.renamed)
 
 
 class AnnotatingSink(Diagnostics):

@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
 from linkforge_compile.expand.defaults import with_frames_as_joints
-from linkforge_compile.expand.deletions import deleted_names, without_links
+from linkforge_compile.expand.deletions import deleted_names, report_lost, without_links
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.loader import SpecFile
@@ -191,8 +191,9 @@ class ModuleBody:
         own, nested = _split_nested(override)
         modules = YamlMap({entry.name: _section_entry(entry) for entry in self.entries}, self.tree.span)
         before = with_frames_as_joints(self.tree.with_value("modules", modules))
-        patched = apply_patch(own, before, self.removed)
-        patched = without_links(patched, {*before.section("links")} - {*patched.section("links")})
+        changed = apply_patch(own, before, self.removed)
+        patched = without_links(changed, {*before.section("links")} - {*changed.section("links")})
+        report_lost(changed, patched, own.patch, override.sink)
         left = patched.section("modules")
         patched_entries = (
             _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)

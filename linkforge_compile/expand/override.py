@@ -17,6 +17,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     POSITIONS_AND_KEYS,
     SAME_AS_BEFORE,
 )
+from linkforge_compile.diagnostics.enumerations import MOST_LISTED, listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.defaults import (
     CHOICES,
@@ -28,7 +29,7 @@ from linkforge_compile.expand.defaults import (
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import Fault, Value
 from linkforge_compile.schema.json_schema import WORDS
-from linkforge_compile.schema.shapes import FREE, Shape, alternatives, shapes
+from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
@@ -39,7 +40,6 @@ SECTIONS = ("links", "joints", "modules", "mount", "materials", "sensors", "tran
 _GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
 _PROPERTIES = "properties"
 
-_MAX_SHOWN_NAMES = 8
 _AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
@@ -195,10 +195,9 @@ class _Patcher:
         for section in SECTIONS if any(shape is shapes().under(section) for section in SECTIONS) else ():
             if name in self._module.section(section):
                 return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
-        if not 0 < len(base.entries) <= _MAX_SHOWN_NAMES or nearest(name, base.entries):
+        if not 0 < len(base.entries) <= MOST_LISTED or nearest(name, base.entries):
             return ""
-        names = [f"'{other}'" for other in base.entries]
-        return f"; there {'is' if len(names) == 1 else 'are'} {alternatives(names, 'and')}"
+        return f"; there {'is' if len(base.entries) == 1 else 'are'} {listed([*base.entries], 'and')}"
 
     def _report(
         self,

@@ -17,7 +17,8 @@ from linkforge_compile.diagnostics.codes.modules import (
     UNKNOWN_PARAMETER,
     VARIANTS_DISAGREE,
 )
-from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants, listed
+from linkforge_compile.diagnostics.enumerations import MOST_LISTED, alternatives, listed
+from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
 from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
 from linkforge_compile.expand.parameters import (
@@ -36,13 +37,9 @@ from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
-from linkforge_compile.schema.shapes import alternatives
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
-
-_MAX_SHOWN = 8
-"""How many parameters and variants a message shows."""
 
 _MAX_SHOWN_TEXT = 60
 """The longest list of choices that a message shows [characters]."""
@@ -105,12 +102,14 @@ class BoundArguments:
         node = entry.value
         if not (self.arguments.as_text and type_.is_structured and isinstance(node, YamlScalar)):
             return node
+        if type_.name == "vector" and (numbers := _numbers_in(node)):
+            return numbers
         file = SourceFile(node.span.file.name, f"{name}: {node.text}")
         parsed = read(file, self.sink)
         value = None if parsed is None else parsed.get(name)
         if parsed is None or value is None:
             return YamlFault(node.span) if parsed is None else node
-        return _numbers_in(value) if type_.name == "vector" else value
+        return value
 
     def settings(self, name: str, node: YamlNode) -> list[Setting]:
         """Return what set a parameter to the node, then what overrides replaced by it."""
@@ -123,13 +122,11 @@ class BoundArguments:
         return [Setting(kind, one, self.evaluator, one.span.file.text if is_typed else "") for one in nodes]
 
 
-def _numbers_in(node: YamlNode) -> YamlNode:
-    """Return a list of the numbers in a text with blanks between them, as xacro has them; other nodes as they are."""
-    if not isinstance(node, YamlScalar) or len(parts := node.text.split()) < 2:
-        return node
-    numbers = tuple(YamlScalar(part, scalar_value(part), node.span) for part in parts)
-    is_vector = all(isinstance(number.value, int | float) for number in numbers)
-    return YamlList(numbers, node.span) if is_vector else node
+def _numbers_in(node: YamlScalar) -> YamlList | None:
+    """Return a list of the numbers in a text with blanks between them, as xacro has them; None for other text."""
+    numbers = tuple(YamlScalar(part, scalar_value(part), node.span) for part in node.text.split())
+    is_vector = len(numbers) > 1 and all(isinstance(number.value, int | float) for number in numbers)
+    return YamlList(numbers, node.span) if is_vector else None
 
 
 def parameter_value(
@@ -149,7 +146,7 @@ def parameter_value(
         writer = Writer(AnnotatingSink(bound.sink, declared), bound.evaluator, bound.arguments.folder)
         candidates.append((node, writer, bound.settings(declaration.name, node)))
     else:
-        _report_disagreement(declaration.name, variants, evaluator.sink)
+        _report_disagreement(parameter, variants, evaluator)
     for name, node in variants.settings_of(declaration.name):
         writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
         is_selected = name in variants.selected
@@ -167,7 +164,10 @@ def parameter_value(
             value = found if is_used else value
         if value is not None:
             settings += set_by
-    return value, replace(settings[0], instead_of=tuple(settings[1:])) if settings else None
+    if not settings:
+        return value, None
+    is_normalized = type_.name in ("integer", "boolean")
+    return value, replace(settings[0], instead_of=tuple(settings[1:]), is_normalized=is_normalized)
 
 
 def _fitting_value(
@@ -193,14 +193,25 @@ def _fitting_value(
     return path
 
 
-def _report_disagreement(parameter: str, variants: Variants, sink: Diagnostics) -> None:
-    """Report a parameter that a selected variant sets to another value than the one that decides."""
-    selected = [setting for setting in variants.settings_of(parameter) if setting[0] in variants.selected]
-    for other, node in selected[1:]:
-        name, used = selected[0]
-        if plain_value(node) != plain_value(used):
-            notes = [Note(f"variant '{other}' sets it here", node.span)]
-            sink.report(VARIANTS_DISAGREE.at(used.span, name=parameter, by=name, other=other, notes=notes))
+def _report_disagreement(parameter: Parameter, variants: Variants, evaluator: Evaluator) -> None:
+    """Report a parameter that a selected variant sets to another value than the one that decides.
+
+    Computed values are not compared: one that is not used may use names that have no value.
+    """
+    settings = [setting for setting in variants.settings_of(parameter.name) if setting[0] in variants.selected]
+    values = [_constant(parameter.type, node, evaluator) for _, node in settings]
+    for (other, node), value in list(zip(settings, values, strict=True))[1:]:
+        if None not in (value, values[0]) and value != values[0]:
+            (name, used), notes = settings[0], [Note(f"variant '{other}' sets it here", node.span)]
+            evaluator.sink.report(
+                VARIANTS_DISAGREE.at(used.span, name=parameter.name, by=name, other=other, notes=notes)
+            )
+
+
+def _constant(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value:
+    """Return the value of a node as one of the type, None if it is computed or does not fit."""
+    value = FAULT if evaluator.expressions.is_computed(node) else Writer(evaluator.sink, None, None).value(node, type_)
+    return None if value is FAULT else type_.convert(value)
 
 
 def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Evaluator) -> Parameter:
@@ -265,7 +276,7 @@ _STEPS_PER_INSTRUCTION = 4
 def report_unset(declared: Sequence[Declaration], bound: BoundArguments, variants: Variants) -> None:
     """Report required parameters without a value: together at the `use`, else each where it is declared."""
     if bound.use is not None:
-        shown = declared[:_MAX_SHOWN]
+        shown = declared[:MOST_LISTED]
         names = listed([one.name for one in declared], "and")
         what = f"parameter {names} has" if len(declared) == 1 else f"parameters {names} have"
         settings = [*(f"{one.name}: {_placeholder(one)}" for one in shown), *(["…"] if shown != declared else [])]
@@ -278,7 +289,7 @@ def report_unset(declared: Sequence[Declaration], bound: BoundArguments, variant
         itself = f"parameters={{'{one.name}': …}}" if in_python else f"'-p {one.name}={_placeholder(one)}'"
         names_of_variants = [name for name, variant in variants.by_name.items() if variant.get(one.name) is not None]
         selections = [f"variant='{name}'" if in_python else f"'--variant {name}'" for name in names_of_variants]
-        remedy = alternatives([itself, *selections[:_MAX_SHOWN]])
+        remedy = alternatives([itself, *selections[:MOST_LISTED]])
         bound.sink.report(PARAMETER_NOT_SET.at(one.key.span, what=f"parameter '{one.name}' has", remedy=remedy))
 
 

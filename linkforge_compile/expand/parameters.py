@@ -100,7 +100,7 @@ class Parameter:
         converted = self.type.convert(value)
         if converted is None:
             measured = f", which is {dimension_name(value.dimension)}" if isinstance(value, Quantity) else ""
-            found = f"{describe(value)}{measured}{self._remedy(value, where, names)}"
+            found = f"{self._found(value)}{measured}{self._remedy(value, where, names)}"
             sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.type.words, found=found))
             return None
         violation = next(self._violations(converted, where), None)
@@ -110,6 +110,13 @@ class Parameter:
         if self.type.name == Dimension.ANGLE and isinstance(value, int | float) and abs(value) > WIDEST_ANGLE:
             sink.report(WIDE_ANGLE.at(where, field=f"parameter '{self.name}'", found=number_text(value)))
         return converted
+
+    def _found(self, value: Value) -> str:
+        """Return a value that does not fit as messages quote it, of a vector only the first item that is no number."""
+        if self.type.name == "vector" and isinstance(value, tuple) and len(value) == 3:
+            axis, item = next((axis, item) for axis, item in zip("xyz", value, strict=True) if not _is_size(item))
+            return f"{describe(item)} for {axis}"
+        return describe(value)
 
     def _remedy(self, value: Value, where: Span, names: Container[str]) -> str:
         """Return what to write for a text that looks like a value of another type, else ""."""
@@ -219,10 +226,12 @@ def _quantity(dimension: Dimension, value: Value) -> Value:
 
 
 def _vector(value: Value) -> Value:
-    if not isinstance(value, tuple) or len(value) != 3:
-        return None
-    sizes = [item.value if isinstance(item, Quantity) else item for item in value]
-    return value if all(_number(size) is not None for size in sizes) else None
+    return value if isinstance(value, tuple) and len(value) == 3 and all(map(_is_size, value)) else None
+
+
+def _is_size(value: Value) -> bool:
+    """Whether a value is a finite number or quantity."""
+    return _number(value.value if isinstance(value, Quantity) else value) is not None
 
 
 def _instance(kind: type, value: Value) -> Value:

@@ -181,12 +181,13 @@ class ComposedFile(NamedTuple):
 
     `include_paths` has, for each included file, the paths that lead to it as written: that of the main file's
     `include`, then that of the file it names, and so on. If a file could not be read, `include` of the tree is a
-    YamlFault.
+    YamlFault. `renamed` is that of `SpecFile`.
     """
 
     file: SourceFile
     tree: YamlMap
     include_paths: Mapping[SourceFile, tuple[str, ...]] = MappingProxyType({})
+    renamed: Mapping[str, str] = MappingProxyType({})
 
 
 def follow_includes(folder: Path, paths: tuple[str, ...]) -> Path:

@@ -20,17 +20,13 @@ from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_bytes
 from linkforge_compile.source.span import Located
+from linkforge_compile.source.xacro_content import find_xacro
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 SPEC_ENDINGS = (".yaml", ".yml")
 _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 _XML_OF_ROBOTS = (_URDF_ENDING, ".srdf")
-_ROOT_OF_XACRO = re.compile(rb"<[A-Za-z][^>]*\sxmlns:xacro\s*=")
-_COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-_DEFINITION = re.compile(rb"<xacro:(?:include|macro|property|arg|if|unless)\b")
-"""What every xacro has; files that xacro has written may have calls that are left over."""
-_SUBSTITUTION = re.compile(rb"\$\((?:find|arg|env|optenv)\s")
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
 _PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 _ZERO_BYTE = "no path holds a zero byte"
@@ -71,11 +67,16 @@ def is_xacro(path: Path) -> bool:
         content = read_bytes(path, MAX_FILE_BYTES, only_regular=True) or b""
     except UnreadableError:
         return False
-    content = _COMMENT.sub(b"", content)
-    if not _ROOT_OF_XACRO.search(content):
-        return False
-    is_named = f"{XACRO}." in name
-    return _DEFINITION.search(content) is not None or (is_named and _SUBSTITUTION.search(content) is not None)
+    found = find_xacro(content)
+    return found.has_definition or (f"{XACRO}." in name and found.has_substitution)
+
+
+def names_xacro(site: PathSite, loader: Loader) -> bool:
+    """Whether a site names a xacro; of a file outside of the roots nothing but its name is looked at."""
+    target = locate(site, loader, Diagnostics())
+    if target is None or not loader.roots.hold(target.path):
+        return site.text.lower().endswith(XACRO)
+    return is_xacro(target.path)
 
 
 def open_use(site: PathSite, loader: Loader, sink: Diagnostics) -> SpecFile | None:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.modules import TAG_NOT_NUMBER
 from linkforge_compile.expressions import (
     FAULT,
     Fault,
@@ -16,20 +15,17 @@ from linkforge_compile.expressions import (
     Template,
     Value,
     as_text,
-    as_written,
-    evaluate,
     forgotten_expression,
-    parse_template,
     passed_on,
     seen_from_compiled,
 )
 from linkforge_compile.expressions.operators import AXES
+from linkforge_compile.limits import Limit
 from linkforge_compile.schema.shapes import FREE, Shape
 from linkforge_compile.source import Key, Origin, Span, TracedSpan
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import (
     ScalarValue,
-    Tags,
     YamlEntry,
     YamlFault,
     YamlList,
@@ -38,7 +34,7 @@ from linkforge_compile.syntax import (
     YamlScalar,
     has_expression,
 )
-from linkforge_compile.units import Quantity, number_text, parse_quantity
+from linkforge_compile.units import Quantity, parse_quantity
 
 
 def plain_value(node: YamlNode) -> Value | Fault:
@@ -46,8 +42,6 @@ def plain_value(node: YamlNode) -> Value | Fault:
     match node:
         case YamlScalar(value=str() as text):
             return parse_quantity(text) or text
-        case YamlScalar(value=int() | float() as number) if not isinstance(number, bool):
-            return as_written(number, node.text)
         case YamlScalar():
             return node.value
         case YamlList():
@@ -60,19 +54,23 @@ def plain_value(node: YamlNode) -> Value | Fault:
     return FAULT
 
 
-def node_of(value: Value, span: Span) -> YamlNode:
+def node_of(value: Value, span: Span, is_free: bool = False) -> YamlNode:
     """Return a value as a tree; every node gets the span of the expression, as a part of it.
 
-    The text of a scalar is that of `as_text`, of null empty.
+    The text of a scalar is that of `as_text`, of null empty. In free parts (`is_free`), a number or truth value that
+    was not computed is as its author wrote it, because plugins read text.
     """
     if isinstance(value, tuple):
-        return YamlList(tuple(node_of(item, span.inside(place)) for place, item in enumerate(value)), span)
+        return YamlList(tuple(node_of(item, span.inside(place), is_free) for place, item in enumerate(value)), span)
     if isinstance(value, Mapping):
         entries = {
-            name: YamlEntry(_scalar(name, span.inside(Key(name))), node_of(item, span.inside(name)))
+            name: YamlEntry(_scalar(name, span.inside(Key(name))), node_of(item, span.inside(name), is_free))
             for name, item in value.items()
         }
         return YamlMap(entries, span)
+    if is_free and isinstance(value, int | float) and isinstance(span, TracedSpan):
+        spelling = span.trace.spelling(span.path, value) if isinstance(span.trace, ExpressionTrace) else None
+        return _scalar(value, span) if spelling is None else YamlScalar(spelling, value, span)
     return _scalar(value, span)
 
 
@@ -95,7 +93,7 @@ def with_final_paths(value: Value, shape: Shape, is_free: bool) -> Value:
 
 
 class Size(NamedTuple):
-    """The size of a value: nodes (tags of raw XML included), characters, and the nesting depth of lists and maps."""
+    """The size of a value: nodes (keys and tags of raw XML included), characters, and the nesting depth."""
 
     nodes: int
     characters: int
@@ -118,7 +116,7 @@ def size_of(value: Value, max_nodes: int) -> Size:
         elif isinstance(part, tuple):
             waiting.extend((item, level + 1) for item in part)
         elif isinstance(part, Mapping):
-            characters += sum(map(len, part))
+            nodes, characters = nodes + len(part), characters + sum(map(len, part))
             waiting.extend((item, level + 1) for item in part.values())
     return Size(nodes, characters, depth)
 
@@ -169,6 +167,7 @@ class Setting:
     - `node`, `path`: the value is the part at this path of the node.
     - `tree`: evaluates the node; None for plain data, where `$(` is text.
     - `is_made`: whether the value is written nowhere, such as a number that a `for` counts.
+    - `is_normalized`: whether a type decides how the value is written, as `true` for `True` and `3` for `03`.
     - `named_by`: the node that names the data file which holds `node`.
     - `instead_of`: the settings that this one overrides, the next in line first.
     """
@@ -179,6 +178,7 @@ class Setting:
     name: str = ""
     path: ValuePath = ()
     is_made: bool = False
+    is_normalized: bool = False
     named_by: YamlNode | None = None
     instead_of: tuple[Setting, ...] = ()
 
@@ -192,10 +192,20 @@ class ExpressionTrace:
 
     def origin(self, path: ValuePath) -> Origin | None:
         """Return where the part at a path of the value was written, None if the expression made it."""
-        node, is_data, key, _ = _written(self.scalar, self.tree, path)
+        written = _written(self.scalar, self.tree, path)
+        node, key = written.node, written.key
         if node is self.scalar or isinstance(node, YamlFault):
             return None
-        return Origin((node.key_span(key) if key else None) or node.span, is_data)
+        return Origin((node.key_span(key) if key else None) or node.span, written.is_data)
+
+    def spelling(self, path: ValuePath, value: int | float) -> str | None:
+        """Return how the number or truth value at a path was written, None if it was computed or is not finite."""
+        written = _written(self.scalar, self.tree, path)
+        self.tree.scope.budget.spend(Limit.STEPS, written.steps, self.scalar.span)
+        node = written.node
+        if written.is_normalized or not isinstance(node, YamlScalar) or not math.isfinite(value):
+            return None
+        return node.text if type(node.value) is type(value) and node.value == value else None
 
     def forgotten_expression(self, path: ValuePath) -> str | None:
         """Return the expression that the text at a path lacks only the `$(` to be, None for other text."""
@@ -215,7 +225,7 @@ class NameOrigin(NamedTuple):
     names: tuple[NameOrigin, ...]
 
 
-def names_behind(node: YamlNode) -> tuple[NameOrigin, ...]:
+def find_name_origins(node: YamlNode) -> tuple[NameOrigin, ...]:
     """Return the origin of each name used by the expressions that computed a node; each name appears once."""
     return tuple(_names_of(node, None, set()))
 
@@ -253,38 +263,48 @@ def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Ev
 
 
 class _Written(NamedTuple):
-    """Where a value is written: a node, or its `key` if that is set. `tree` as in Setting."""
+    """Where a value is written: a node, or its `key` if that is set. `tree` as in Setting.
+
+    `is_normalized` if a setting on the way there is; `steps` is the length of the way.
+    """
 
     node: YamlNode
     is_data: bool
-    key: Key | None = None
-    tree: Evaluation | None = None
+    key: Key | None
+    tree: Evaluation | None
+    is_normalized: bool
+    steps: int
 
 
 def _written(node: YamlNode, tree: Evaluation | None, path: ValuePath) -> _Written:
     """Follow a value through the names that pass it on, to where it was written or computed."""
-    is_data = False
-    for _ in range(_MOST_STEPS):
+    is_data = is_normalized = False
+    key: Key | None = None
+    steps = 0
+    while steps < _MOST_STEPS:
+        steps += 1
         if computed := _expression_of(node):
             node, tree, path = computed[0].scalar, computed[0].tree, (*computed[1], *path)
         elif isinstance(node, YamlScalar) and tree and has_expression(node.text):
             template = tree.template(node, Diagnostics())
-            taken = passed_on(template, tree.scope_of(node)) if template else None
+            taken = passed_on(template, tree.scope_of(node), path) if template else None
             setting = tree.settings.get(taken[0]) if taken else None
             if taken is None or setting is None or setting.is_made:
                 break
-            node, tree, path = setting.node, setting.tree, (*setting.path, *taken[1], *path)
+            node, tree, path = setting.node, setting.tree, (*setting.path, *taken[1])
             is_data = is_data or setting.named_by is not None
+            is_normalized = is_normalized or setting.is_normalized
         elif not path:
             break
         elif isinstance(path[0], Key):
-            return _Written(node, is_data, path[0])
+            key = path[0]
+            break
         else:
             inner = _part(node, path[0])
             if inner is None:
                 break
             node, path = inner, path[1:]
-    return _Written(node, is_data, None, tree)
+    return _Written(node, is_data, key, tree, is_normalized, steps)
 
 
 def _expression_of(node: YamlNode) -> tuple[ExpressionTrace, ValuePath] | None:
@@ -304,30 +324,3 @@ def _part(node: YamlNode, key: str | int) -> YamlNode | None:
         if position is not None and -len(node) <= position < len(node):
             return node.items[position]
     return None
-
-
-def angle_tags(sink: Diagnostics) -> Tags:
-    """Return xacro's tags for angles, which accept a number or an expression of numbers such as `pi/2`.
-
-    The result is a bare number, as in xacro, because vendors also write `max_velocity: !degrees 180`.
-    """
-
-    def angle(tag: str, to_radians: Callable[[float], float]) -> Callable[[YamlScalar], YamlNode]:
-        def make(scalar: YamlScalar) -> YamlNode:
-            number = _number(scalar)
-            if number is None:
-                sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
-                return YamlFault(scalar.span)
-            radians = to_radians(number)
-            return YamlScalar(number_text(radians), radians, scalar.span)
-
-        return make
-
-    return {"!degrees": angle("!degrees", math.radians), "!radians": angle("!radians", float)}
-
-
-def _number(scalar: YamlScalar) -> float | None:
-    """Return the value of a scalar as an expression with no names but `pi`; None if it is not a number."""
-    template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
-    value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
-    return None if isinstance(value, bool) or not isinstance(value, int | float) else float(value)

@@ -67,7 +67,7 @@ def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | N
     (main, *others), imported = robot
     tree, folder = imported.tree, use.path.parent
     included = {file: SpecFile(file, tree, folder, use.package) for file in others}
-    return SpecFile(main, tree, folder, use.package, included, use.packages)
+    return SpecFile(main, tree, folder, use.package, included, use.packages, imported.renamed)
 
 
 def read_xacro(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.expand.values import NameOrigin, names_behind
+from linkforge_compile.expand.values import NameOrigin, find_name_origins
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.provenance import is_default, written_at
 from linkforge_compile.export_spec.robot import spec_of
@@ -109,7 +109,7 @@ def _written(
     names: tuple[NameOrigin, ...] = ()
     if (expression := _expression(place)) is not None:
         links.append((Kind.EXPRESSION, place, expression))
-        names = names_behind(node) if isinstance(node, YamlNode) else ()
+        names = find_name_origins(node) if isinstance(node, YamlNode) else ()
         origin = node.span.origin
         if origin and isinstance(node, YamlNode) and origin.span not in _places(names):
             links.append((Kind.VALUE, origin.span, ""))

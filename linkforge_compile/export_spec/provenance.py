@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-from functools import lru_cache
 from pathlib import Path
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Provenance, outward
-from linkforge_compile.syntax import YamlNode, read
+from linkforge_compile.syntax import read
 
 
 def compiled_folder(robot: Robot) -> Path | None:
@@ -26,14 +25,9 @@ def written_at(span: Span) -> Provenance:
 
 def is_default(place: Span) -> bool:
     """Whether a place lies in the `defaults` of its file; the file is read again, for `explain` has few places."""
-    section = _defaults_section(place.file)
+    tree = read(place.file, Diagnostics()) if "defaults" in place.file.text else None
+    section = tree.get("defaults") if tree else None
     return section is not None and place.lies_in(section.span)
-
-
-@lru_cache(maxsize=8)
-def _defaults_section(file: SourceFile) -> YamlNode | None:
-    tree = read(file, Diagnostics()) if "defaults" in file.text else None
-    return tree.get("defaults") if tree else None
 
 
 def origin_of(source: SourceRef, folder: Path | None) -> str:

@@ -14,7 +14,6 @@ from linkforge_compile.expressions.types import (
     Template,
     Value,
     as_text,
-    as_written,
     kind_name,
     seen_from_compiled,
 )
@@ -32,7 +31,6 @@ __all__ = [
     "Value",
     "as_one_expression",
     "as_text",
-    "as_written",
     "evaluate",
     "forgotten_expression",
     "kind_name",

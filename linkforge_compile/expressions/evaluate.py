@@ -82,15 +82,19 @@ def evaluate(
     return text
 
 
-def passed_on(template: Template, scope: Scope) -> tuple[str, tuple[str | int, ...]] | None:
-    """Return the name whose value a template passes on unchanged, and the keys to the part that it passes on.
+Path: TypeAlias = tuple[str | int, ...]
+"""The keys and positions that lead to a part of a value."""
 
-    None for a template that computes a new value.
+
+def passed_on(template: Template, scope: Scope, path: Path) -> tuple[str, Path] | None:
+    """Return the name from whose value a template passes on the part at a path, and the part's path in that value.
+
+    None for a part that the template computes.
     """
     match template.parts:
         case (Expression() as whole,):
             try:
-                return _Evaluation(whole, scope, Diagnostics()).passed_on(whole.tree)
+                return _Evaluation(whole, scope, Diagnostics()).passed_on(whole.tree, path)
             except _FaultError:
                 return None
     return None
@@ -166,19 +170,22 @@ class _Evaluation:
             scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
             return FAULT
 
-    def passed_on(self, node: ast.expr) -> tuple[str, tuple[str | int, ...]] | None:
+    def passed_on(self, node: ast.expr, path: Path) -> tuple[str, Path] | None:
         """Return what the function `passed_on` does, for a part of the expression."""
         match node:
             case ast.Name(id=name):
-                return None if name in CONSTANTS else (name, ())
+                return None if name in CONSTANTS else (name, path)
             case ast.IfExp(test=condition, body=chosen, orelse=other):
-                return self.passed_on(chosen if self._truth(condition, "'if'") else other)
+                return self.passed_on(chosen if self._truth(condition, "'if'") else other, path)
             case ast.Attribute(value=whole, attr=key):
-                reached = self.passed_on(whole)
-                return reached and (reached[0], (*reached[1], key))
+                return self.passed_on(whole, (key, *path))
             case ast.Subscript(value=whole, slice=index):
-                reached, place = self.passed_on(whole), self._value(index)
-                return (reached[0], (*reached[1], place)) if reached and isinstance(place, str | int) else None
+                place = self._value(index)
+                return self.passed_on(whole, (place, *path)) if isinstance(place, str | int) else None
+            case ast.Call(func=ast.Name(id="merge"), args=maps) if path:
+                values = [(each, self._value(each)) for each in maps]
+                having = [each for each, value in values if isinstance(value, Mapping) and path[0] in value]
+                return self.passed_on(having[-1], path) if having else None
         return None
 
     def _value(self, node: ast.expr) -> Value:

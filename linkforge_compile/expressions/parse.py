@@ -299,7 +299,8 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     if any(isinstance(argument, ast.Starred) for argument in call.args) or function.accepts(len(call.args)):
         return None
     whole = expression.span(call)
-    return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, count=len(call.args))
+    found = "1 argument" if len(call.args) == 1 else f"{len(call.args)} arguments"
+    return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, found=found)
 
 
 # Syntax errors

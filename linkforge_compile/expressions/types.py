@@ -46,27 +46,6 @@ def seen_from_compiled(text: str) -> str:
     return text.from_compiled if isinstance(text, PathText) else text
 
 
-class WrittenInt(int):
-    """An integer with the text that it was written as; what is computed from it is an ordinary integer."""
-
-    text: str
-
-
-class WrittenFloat(float):
-    """A number with the text that it was written as; what is computed from it is an ordinary number."""
-
-    text: str
-
-
-def as_written(value: int | float, text: str) -> int | float:
-    """Return a number that `as_text` gives as this text: `1.10`, `007`, `1e6`."""
-    if text == number_text(value):
-        return value
-    written = WrittenInt(value) if isinstance(value, int) else WrittenFloat(value)
-    written.text = text
-    return written
-
-
 class Fault(Enum):
     """Takes the place of a value that is faulty or unset after the error was reported."""
 
@@ -118,15 +97,10 @@ def kind_name(value: Value) -> str:
 
 
 def as_text(value: Value) -> str | None:
-    """Return a value as text, a quantity as its SI number; None for null, a list and a map.
-
-    A number that was not computed is as its author wrote it.
-    """
+    """Return a value as text, a quantity as its SI number; None for null, a list and a map."""
     match value:
         case bool():
             return "true" if value else "false"
-        case WrittenInt() | WrittenFloat():
-            return value.text
         case int() | float():
             return number_text(value)
         case Quantity():

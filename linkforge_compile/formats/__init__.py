@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
+from linkforge_compile.formats.mjcf import Mjcf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMATS",
+    "MJCF",
     "NO_OPTIONS",
     "SRDF",
     "URDF",
@@ -31,9 +33,9 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF = Urdf(), Srdf()
+URDF, SRDF, MJCF = Urdf(), Srdf(), Mjcf()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import posixpath
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import accumulate
 from textwrap import dedent
+from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.banner import BANNER
@@ -22,6 +23,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 from linkforge_compile.importers.spec_draft import SpecDraft
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.source import SourceFile
+from linkforge_compile.source.xacro_content import DEFINITIONS
 from linkforge_compile.source.xml_tree import XmlComment, XmlContent, XmlDocument, XmlElement
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode
 
@@ -36,6 +38,8 @@ class Imported(NamedTuple):
     comments: Comments
     documents: tuple[XmlDocument, ...] = ()
     """The URDF, then the SRDF."""
+    renamed: Mapping[str, str] = MappingProxyType({})
+    """The names of the spec by those in the URDF that were replaced."""
 
 
 def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None) -> XmlDocument | None:
@@ -68,9 +72,6 @@ def read_document(file: SourceFile, sink: Diagnostics, moved: Move | None = None
     return document
 
 
-_DEFINITIONS = frozenset(f"xacro:{tag}" for tag in ("include", "macro", "property", "arg", "if", "unless"))
-
-
 def _elements_of_xacro(root: XmlElement) -> list[XmlElement]:
     """Return the elements that xacro would have replaced, at any depth, in the order of the file."""
     if "<xacro:" not in root.raw:
@@ -79,7 +80,7 @@ def _elements_of_xacro(root: XmlElement) -> list[XmlElement]:
 
 
 def _definition_in(elements: Iterable[XmlElement]) -> XmlElement | None:
-    return next((one for one in elements if one.tag in _DEFINITIONS), None)
+    return next((one for one in elements if one.tag in DEFINITIONS), None)
 
 
 def _report_leftovers(elements: Iterable[XmlElement], sink: Diagnostics) -> None:

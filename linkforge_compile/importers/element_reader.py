@@ -14,7 +14,7 @@ from typing import TypeVar
 from linkforge_compile.diagnostics import Note, Severity
 from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.raw_xml import raw_with_prefix, tidy, without_instructions
-from linkforge_compile.importers.renaming import rename_in_raw
+from linkforge_compile.importers.renaming import rename_in_raw, rename_in_raw_srdf
 from linkforge_compile.importers.spec_draft import CannotRepresentError, SpecDraft, values_in
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlAttribute, XmlElement
@@ -281,7 +281,8 @@ class ElementReader:
             raise self.cannot_represent("it holds text")
 
     def _raw(self, child: XmlElement) -> YamlNode:
-        raw = rename_in_raw(without_instructions(child.raw), self.draft.renamed)
+        rename = rename_in_raw if self.draft.is_urdf else rename_in_raw_srdf
+        raw = rename(without_instructions(child.raw), self.draft.renamed)
         written = self.draft.text(tidy(raw), child.span).text
         text = raw_with_prefix(written, self.element.tag, self.draft.shapes)
         node = YamlScalar(text, text, child.span)

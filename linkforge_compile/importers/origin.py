@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.source.characters import on_one_line
@@ -20,11 +21,19 @@ class Origin(NamedTuple):
     assignments: tuple[str, ...]
     """The arguments of xacros, as `NAME:=VALUE`."""
     digest: str
+    packages: Mapping[str, Path] = MappingProxyType({})
+    """The folders of packages that the user named."""
+    is_outside_allowed: bool = False
 
-    def head(self, folder: Path) -> str:
-        """Return the comment for a spec in a folder, in which the command is to be run."""
-        srdf = ("--srdf", _from(folder, self.srdf)) if self.srdf else ()
-        command = ("linkforge", "import", _from(folder, self.urdf), *srdf, *self.assignments)
+    def head(self, spec: Path | None) -> str:
+        """Return the comment for a spec, in whose folder the command is to be run; None for the working directory."""
+        folder = spec.parent if spec else Path()
+        options = [*(("--srdf", _from(folder, self.srdf)) if self.srdf else ())]
+        for name, place in self.packages.items():
+            options += ("--package", f"{name}={_from(folder, place)}")
+        options += ["--allow-outside"] if self.is_outside_allowed else []
+        options += ("-o", spec.name) if spec else ()
+        command = ("linkforge", "import", _from(folder, self.urdf), *self.assignments, *options)
         return f"# {on_one_line(shlex.join(command))}\n# sha256 of its files: {self.digest}\n\n"
 
 

@@ -5,12 +5,18 @@ Such a path is one of this machine; the expression is computed on each.
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 from linkforge_compile.roots import Roots, exists
+
+_PATH = r"(?>[\w.+/-]*\w)(?!'\w)"
+"""A path in a text with other words."""
+_WHOLE_PATH = r"""(?:(?![ ][-/])[^,;:|"'<>\n$()])*[^,;:|"'<>\s$()/](?=\s*(?:\Z|["<]))|""" + _PATH
+"""A path that may be a whole value, and contain blanks then."""
 
 
 class FoundPackage(NamedTuple):
@@ -19,6 +25,10 @@ class FoundPackage(NamedTuple):
     name: str
     near: Path | None
 
+    @property
+    def is_near(self) -> bool:
+        return self.near is not None
+
 
 class PackagePaths:
     """The folders of packages in texts, by their paths; another copy of a package is searched within `roots`."""
@@ -26,20 +36,19 @@ class PackagePaths:
     def __init__(self, packages: Mapping[str, FoundPackage], roots: Roots) -> None:
         self._packages, self._roots = packages, roots
         folders = "|".join(map(re.escape, sorted(packages, key=len, reverse=True)))
-        self._pattern = (
-            re.compile(rf"(?:(?<=file://)|(?<![\w./-]))(?P<folder>{folders})/(?P<path>[\w.+/-]*\w)")
-            if folders
-            else None
-        )
+        begin = r"""(?:(?P<whole>(?<=file://)|(?<=[">])|\A)|(?<![\w./-]))"""
+        self._paths = re.compile(rf"{begin}(?P<folder>{folders})/(?P<path>(?(whole)(?:{_WHOLE_PATH})|{_PATH}))")
+        self._folders = re.compile(rf"(?:(?<=file://)|(?<![\w./-]))(?P<folder>{folders})(?![\w-]|\.\w)")
 
-    def in_expressions(self, text: str) -> tuple[str, str | None]:
-        """Return a text with expressions for its paths, and the first package that the spec would not find."""
-        if self._pattern is None:
+    def in_expressions(self, text: str) -> tuple[str, FoundPackage | None]:
+        """Return a text with expressions for its paths, and the first package whose folder is still in it."""
+        if not self._packages:
             return text, None
-        far = (self._packages[match["folder"]] for match in self._pattern.finditer(text) if not self._is_near(match))
-        return self._pattern.sub(self._expression, text), next((package.name for package in far), None)
+        written = self._paths.sub(self._expression, text)
+        left = self._folders.search(written)
+        return written, self._packages[left["folder"]] if left else None
 
-    def _is_near(self, found: re.Match[str]) -> bool:
+    def _finds_file(self, found: re.Match[str]) -> bool:
         """Whether a spec finds the file by the name of its package, perhaps in the sources of an installed one."""
         near = self._packages[found["folder"]].near
         if near is None or str(near) == found["folder"]:
@@ -48,8 +57,9 @@ class PackagePaths:
         return self._roots.hold(file) and exists(file)
 
     def _expression(self, found: re.Match[str]) -> str:
-        name = self._packages[found["folder"]].name
-        return f"$(path('package://{name}/{found['path']}'))" if self._is_near(found) else found[0]
+        package, path = self._packages[found["folder"]], found["path"]
+        is_kept = self._finds_file(found) and posixpath.normpath(path) == path
+        return f"$(path('package://{package.name}/{path}'))" if is_kept else found[0]
 
 
 NO_PACKAGE_PATHS = PackagePaths({}, Roots())

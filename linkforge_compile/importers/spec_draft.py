@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, PATH_OF_THIS_MACHINE
+from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE, KEPT_RAW
 from linkforge_compile.importers.package_paths import NO_PACKAGE_PATHS, PackagePaths
 from linkforge_compile.importers.raw_xml import NO_SHAPES, Shapes
 from linkforge_compile.limits import Budget, Limit
@@ -48,7 +48,7 @@ Where: TypeAlias = Span | XmlAttribute | XmlElement | YamlNode
 """A span, or something with one."""
 
 
-_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, PATH_OF_THIS_MACHINE)
+_GROUPED = (KEPT_RAW, ENDS_IN_A_BLANK, FOUND_PATH_OF_THIS_MACHINE)
 """Codes of which reports with the same words are one."""
 
 
@@ -124,11 +124,13 @@ class SpecDraft:
         return YamlScalar(escaped, word_value(escaped), *_bounds(where))
 
     def _escaped(self, text: str, where: Where) -> str:
-        escaped, far = self.package_paths.in_expressions(text.replace("$(", "$$("))
-        if far is not None:
+        escaped, left = self.package_paths.in_expressions(text.replace("$(", "$$("))
+        if left is not None:
             place, begin, end = _bounds(where)
             span = place if isinstance(place, Span) else place.between(begin, end)
-            self.diagnostics.append(PATH_OF_THIS_MACHINE.at(span, package=far))
+            self.diagnostics.append(
+                FOUND_PATH_OF_THIS_MACHINE.at(span, package=left.name, reason=_WHY_LEFT[left.is_near])
+            )
         return escaped
 
     def number(self, text: str, where: Where, unit: Dimension | None = None) -> YamlScalar | None:
@@ -190,6 +192,13 @@ class SpecDraft:
     def note_same_source(self, node: YamlNode, *others: YamlNode) -> None:
         """Note that a node replaces others, and so was made from their elements."""
         self.note_source(node, *(element for other in others for element in self._elements.get(other, ())))
+
+
+_WHY_LEFT = (
+    "as that package is not found from the spec's folder",
+    "as it does not begin the path of a file here; write \"$(path('package://...'))\" in the spec",
+)
+"""Why a folder of a package is in a spec, by whether the spec finds the package."""
 
 
 def _bounds(where: Where) -> Bounds:

@@ -29,7 +29,6 @@ class SemanticNames:
     joints: set[str]
     turning: frozenset[str]
     """The joints whose position is an angle."""
-    robot: str = ""
     groups: set[str] = field(default_factory=set)
     unread_groups: set[str] = field(default_factory=set)
 
@@ -37,19 +36,12 @@ class SemanticNames:
     def of(cls, tree: YamlMap) -> SemanticNames:
         """Return the names of links and joints in the spec of a URDF."""
         links, joints, frames = (tree.get(key) for key in ("links", "joints", "frames"))
-        robot = tree.get("name")
-        name = robot.text if isinstance(robot, YamlScalar) else ""
-        names = cls(_keys(links), _keys(joints), frozenset(_turning_joints(joints)), name)
+        names = cls(_keys(links), _keys(joints), frozenset(_turning_joints(joints)))
         for frame in frames if isinstance(frames, YamlMap) else ():
             names.links.add(frame.name)
             joint = frame.value.child("joint")
             names.joints.add(joint.text if isinstance(joint, YamlScalar) else f"{frame.name}_joint")
         return names
-
-    @property
-    def all_names(self) -> set[str]:
-        """The names of links, joints and the robot."""
-        return self.links | self.joints | {self.robot}
 
     @property
     def by_kind(self) -> Names:
@@ -68,13 +60,14 @@ def _turning_joints(joints: object) -> Iterator[str]:
 
 
 def read_srdf(
-    document: XmlDocument, robot: YamlMap, sink: Diagnostics, refused: Mapping[XmlElement, CannotRepresentError]
+    document: XmlDocument, urdf: Imported, sink: Diagnostics, refused: Mapping[XmlElement, CannotRepresentError]
 ) -> Imported:
     """Read an SRDF document for a robot's spec, as a tree with the section `semantic` only.
 
     The tree has all of its content, in the language's words or as raw XML; what is left out is reported.
     """
-    draft, root = SpecDraft(refused), document.root
+    robot, root = urdf.tree, document.root
+    draft = SpecDraft(refused, renamed=urdf.renamed)
     reader = ElementReader(draft, root)
     name, robot_name = reader.required_text("name"), robot.get("name")
     if isinstance(robot_name, YamlScalar) and robot_name.text != name.text:

@@ -10,7 +10,7 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.importing import KEPT_RAW, SRDF_OF_ANOTHER, SRDF_OF_MORE, URDF_FOR_SRDF
 from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.importers.document import Comments, Imported, Move, read_document
-from linkforge_compile.importers.renaming import rename_references
+from linkforge_compile.importers.renaming import is_reference, rename_references
 from linkforge_compile.importers.spec_draft import CannotRepresentError
 from linkforge_compile.importers.srdf import SemanticNames, read_srdf
 from linkforge_compile.source import SourceFile, Span
@@ -26,12 +26,8 @@ What the language refuses in the last round is reported as an error.
 _MAX_READ = 20_000
 """How many elements of both documents are read in all rounds together, unless two rounds are more."""
 
-_REFERENCES = ("link", "link1", "link2", "base_link", "tip_link", "parent_link", "child_link", "joint_name")
-"""Attributes that name links and joints."""
 _GROUP_REFERENCES = ("group", "parent_group")
 """Attributes that name planning groups."""
-_NAMED_BY_NAME = ("link", "joint", "passive_joint")
-"""Tags whose attribute `name` names a link or joint."""
 
 _SEVERAL = 3
 """So many unknown names are parts that the robot does not have; fewer are probably misspelled, and reported each."""
@@ -52,13 +48,13 @@ def with_srdf(
     if part := next((child for child in document.root.children if child.tag in ("link", "joint")), None):
         sink.report(URDF_FOR_SRDF.at(part.span, tag=part.tag))
         return None
-    document = rename_references(document, SemanticNames.of(urdf.tree).all_names)
+    document = rename_references(document, urdf.renamed)
     refused: dict[XmlElement, CannotRepresentError] = {}
     entries = sum(len(entry.value) for entry in urdf.tree if isinstance(entry.value, YamlMap))
     elements = entries + sum(1 for _ in document.root.walk())
     for _ in range(max(2, min(_MAX_ROUNDS, _MAX_READ // elements))):
         round_sink = Diagnostics()
-        whole = _merge(urdf, read_srdf(document, urdf.tree, round_sink, refused))
+        whole = _merge(urdf, read_srdf(document, urdf, round_sink, refused))
         checked = check(whole.tree)
         found = _refusals(document, checked.diagnostics)
         if found.keys() <= refused.keys():
@@ -126,7 +122,7 @@ def _find_other_robot(document: XmlDocument, robot: YamlMap) -> Diagnostic | Non
 def _references(element: XmlElement) -> Iterator[XmlAttribute]:
     """Yield the attributes that name links and joints, in the order of the file."""
     for name, attribute in element.attributes.items():
-        if name in _REFERENCES or (name == "name" and element.tag in _NAMED_BY_NAME):
+        if is_reference(element.tag, name):
             yield attribute
     for child in element.children:
         yield from _references(child)

@@ -69,7 +69,7 @@ def read_urdf(
         at_fault = frozenset(element for refusal in refusals for element in refusal.path)
         draft, tree = _draft(root, renamed, package_paths, at_fault=at_fault)
     draft.report(sink)
-    return Imported(tree, place_comments(document, draft, tree), (document,))
+    return Imported(tree, place_comments(document, draft, tree), (document,), renamed)
 
 
 def _require_few_parts(root: XmlElement) -> None:

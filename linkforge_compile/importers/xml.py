@@ -18,15 +18,13 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
+from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point, without_declaration
 from linkforge_compile.source.malformed_xml import MalformedXmlError, find_xml_error
 from linkforge_compile.source.xml_tree import MARKUP, Places, XmlDocument, parse_xml
 
 MOST_ELEMENTS = 250_000
 MOST_INSIDE = 100_000
 
-# XML allows a declaration at the very start only; generated files have comments and blank lines before it.
-_DECLARATION = re.compile(r"(?:\s|<!--(?:(?!-->).)*-->)*(<\?xml\s(?:(?!\?>).)*\?>)", re.DOTALL)
 _DOCUMENT_TYPE = "<!DOCTYPE"
 _EMPTY_SECTION = "<![CDATA[]]>"
 
@@ -71,7 +69,7 @@ class _Bounds:
     """Checks the limits of a document before its tree is built."""
 
     def __init__(self, file: SourceFile, *, is_ours: bool) -> None:
-        self.places = Places(_without_declaration(file.counted))
+        self.places = Places(without_declaration(file.counted))
         self._instructions: list[re.Match[str]] = []
         self._file = file
         self._max_elements, self._max_inside = (maxsize, maxsize) if is_ours else (MOST_ELEMENTS, MOST_INSIDE)
@@ -146,12 +144,3 @@ class _Bounds:
 
     def _span(self, piece: re.Match[str], length: int) -> Span:
         return self._file.between(piece.start(), piece.start() + length)
-
-
-def _without_declaration(text: str) -> str:
-    """Return the text with blanks in place of its XML declaration, because it is decoded already."""
-    found = _DECLARATION.match(text)
-    if found is None:
-        return text
-    blank = re.sub(r"[^\r\n]", " ", found[1])
-    return text[: found.start(1)] + blank + text[found.end(1) :]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
+from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes import model
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT, UNKNOWN_LINK
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
@@ -21,6 +21,7 @@ from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lower.mount import ModuleJoint
 from linkforge_compile.lower.shapes import FileScope
 from linkforge_compile.source import SourceFile
+from linkforge_compile.source.provenance import uses_in
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlScalar
 
 if TYPE_CHECKING:
@@ -78,7 +79,9 @@ def _lower_instance(
 
         robot.semantic = group_by_name(robot.semantic)
     if texts:
-        lowered = replace(lowered, prefix_warnings=(*lowered.prefix_warnings, *prefix_warnings(texts, robot)))
+        uses = notes_of(uses_in(instance.include_stack))
+        warnings = (replace(one, notes=(*one.notes, *uses)) for one in prefix_warnings(texts, robot))
+        lowered = replace(lowered, prefix_warnings=(*lowered.prefix_warnings, *warnings))
     if instance.modules and not _SECTIONS_WITH_POSITIONS.isdisjoint(tree.entries):
         joints = _joints_by_name(robot, [lowered.mount] if lowered.mount else [])
         check_positions_of_module_joints(Fields(tree, "robot", sink, instance.include_stack), joints)

@@ -8,6 +8,7 @@ from itertools import chain, islice
 
 from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
+from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hint_rules import number_hint
 from linkforge_compile.schema.hints import (
@@ -23,7 +24,6 @@ from linkforge_compile.schema.registry import accepts
 from linkforge_compile.schema.shapes import (
     COMMON_KEYS,
     Shape,
-    alternatives,
     nested,
     shapes,
     shortened,

@@ -8,6 +8,7 @@ from collections.abc import Collection, Sequence
 from functools import cache
 from typing import Final, NamedTuple, TypeAlias
 
+from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.schema.json_schema import (
     EXPRESSION,
     LONG_FORM,
@@ -214,11 +215,6 @@ _SHOWN_TEXT = 40
 _SHOWN_ITEMS = 6
 
 _SCALAR_KINDS = {type(None): "null", str: "string", bool: "boolean", int: "number", float: "number"}
-
-
-def alternatives(words: Sequence[str], last: str = "or") -> str:
-    """Return "a", "a or b", "a, b or c"."""
-    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
 
 
 def find_branch(schema: Schema, node: YamlNode) -> int | None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_REPETITION
 from linkforge_compile.schema.registry import HEADER, accepts, linked
+from linkforge_compile.schema.repetition_words import FOR_AND_WHEN, repetition_words
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 from linkforge_compile.units import Quantity
@@ -28,16 +29,19 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     return report_mismatches(restore_sections(tree, sink), sink, is_included=is_included)
 
 
-def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics) -> YamlNode:
+def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics, *, is_entry: bool = False) -> YamlNode:
     """Validate a map or list that an expression made, as if it were written under `key`; see `validate`.
 
-    Its own kind and length are not checked here but, as for any computed value, where it is read; so are scalars.
+    `is_entry` as for `repetition_words`. Its own kind and length are not checked here but, as for any computed value,
+    where it is read; so are scalars.
     """
-    if not isinstance(node, YamlMap | YamlList) or not shape.schema or shape.is_free_part:
+    if not isinstance(node, YamlMap | YamlList) or not shape.schema:
         return node
-    if word := next(_computed_words(node, shape), None):
+    if word := next(_computed_words(node, shape, is_entry=is_entry), None):
         sink.report(COMPUTED_REPETITION.at(node.span, name=word))
         return YamlFault(node.span)
+    if shape.is_free_part:
+        return node
     written = _with_units(node)
     if accepts(shape.schema, written):
         return node
@@ -85,14 +89,18 @@ def _with_units(node: YamlNode) -> YamlNode:
     return node
 
 
-def _computed_words(node: YamlNode, shape: Shape) -> Iterator[str]:
+def _computed_words(node: YamlNode, shape: Shape, *, is_entry: bool) -> Iterator[str]:
     """Yield each computed `for` and `when` that would repeat something had it been written out."""
     match node:
         case YamlList():
+            item_shape = shape.item or (shape if shape.is_object or shape.is_for_plugins else FREE)
             for item in node:
-                yield from _computed_words(item, shape.item or (shape if shape.is_object else FREE))
-        case YamlMap() if not shape.is_plain:
+                yield from _computed_words(item, item_shape, is_entry=True)
+        case YamlMap() if shape.is_for_plugins or not shape.is_plain:
+            words = frozenset() if shape.has_names else FOR_AND_WHEN
+            if shape.is_for_plugins:
+                words = repetition_words(node, shape, is_entry=is_entry)
             for entry in node:
-                if entry.name in ("for", "when") and not shape.has_names:
+                if entry.name in words:
                     yield entry.name
-                yield from _computed_words(entry.value, shape.under(entry.name))
+                yield from _computed_words(entry.value, shape.under(entry.name), is_entry=shape.is_for_plugins)

@@ -52,6 +52,10 @@ _WAY_OUT = (
 )
 
 
+# XML allows a declaration at the very start only; generated files have comments and blank lines before it.
+_DECLARATION = re.compile(r"(?:\s|<!--(?:(?!-->).)*-->)*(<\?xml\s(?:(?!\?>).)*\?>)", re.DOTALL)
+
+
 class UnreadableError(Exception):
     """Bytes that cannot be read as text; `undecoded` is the error at the first wrong byte, None for other reasons."""
 
@@ -117,3 +121,12 @@ def _decoded(data: bytes, encoding: str) -> str:
         line = data.count(b"\n", 0, error.start) + 1
         reason = f"line {line} has the byte {data[error.start]:#04x}, which is not {encoding}; {_WAY_OUT}"
         raise UnreadableError(reason, error) from error
+
+
+def without_declaration(text: str) -> str:
+    """Return the text with blanks in place of its XML declaration, because it is decoded already."""
+    found = _DECLARATION.match(text)
+    if found is None:
+        return text
+    blank = re.sub(r"[^\r\n]", " ", found[1])
+    return text[: found.start(1)] + blank + text[found.end(1) :]

@@ -161,7 +161,8 @@ class YamlMap:
         return YamlMap({name: entry for name, entry in self.entries.items() if keep(entry)}, self.span)
 
     def without(self, *keys: str) -> YamlMap:
-        return self.only(lambda entry: entry.name not in keys)
+        gone = frozenset(keys)
+        return self.only(lambda entry: entry.name not in gone)
 
     def mapped(self, change: Callable[[YamlEntry], YamlNode]) -> YamlMap:
         """Return the map with the values that `change` returns."""

@@ -262,8 +262,9 @@ class _Reader:
 
     def _list(self, start: SequenceStartEvent, depth: int) -> YamlNode:
         flow, outer = self._open(start, depth), self._indent
-        if start.start_mark and not flow and start.anchor is None:
-            self._indent = start.start_mark.column
+        # The event begins at an anchor, and ends before the first dash, but after a dash at the column of the key.
+        if (dash := start.end_mark) and not flow and self._marks.text[dash.index] == "-":
+            self._indent = dash.column
         items: list[YamlNode] = []
         while not isinstance(event := self._next(), SequenceEndEvent):
             items.append(self._node(event, depth + 1, flow))

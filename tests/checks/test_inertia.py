@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkforge_compile.checks import check
-from linkforge_compile.checks.inertia import principal_moments
 from linkforge_compile.core import Inertial, InertiaTensor, Link, Robot
+from linkforge_compile.core.moments import principal_moments
 from linkforge_compile.diagnostics import Severity, UnresolvedNames
 from linkforge_compile.formats.render import render_urdf
 from tests.checks.robots import body, messages_of, turning

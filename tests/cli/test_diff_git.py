@@ -442,6 +442,25 @@ def test_the_folder_of_a_package_that_the_revision_lacks_is_an_error(repository:
     assert "is not in revision 'HEAD'; submodules, here 'vendor', are left out\n" in run.stderr
 
 
+def test_the_absolute_path_of_a_file_is_the_same_in_the_revision(repository: Repository):
+    plugin = "{filename: libx.so, parameters: {file: $(path('FILE'))}}"
+    spec = f"linkforge: 1\nname: r\nlinks: {{a: }}\ngazebo: {{plugins: {{p: {plugin}}}}}\n"
+    plugin = '<plugin name="p" filename="l"><x>$(find app)/x</x></plugin>'
+    xacro = f'<robot name="r" xmlns:xacro="x"><link name="a"/><gazebo>{plugin}</gazebo></robot>\n'
+    repository.write("package.xml", "<package><name>app</name></package>\n")
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "hand.robot.yaml"))
+    repository.write("robots/r.urdf.xacro", xacro)
+    repository.commit()
+    for name in ("robots/r.robot.yaml", "robots/r.urdf.xacro"):
+        same = linkforge("diff", name, "--git", "HEAD", cwd=repository.folder)
+        assert (same.returncode, same.stderr) == (0, ""), same.stdout
+    repository.write("robots/r.robot.yaml", spec.replace("FILE", "arm.robot.yaml"))
+    run = linkforge("diff", "robots/r.robot.yaml", "--git", "HEAD", "--json", cwd=repository.folder)
+    (difference,) = json.loads(run.stdout)["differences"]
+    assert difference["before"] == str(repository.folder / "robots" / "hand.robot.yaml")
+    assert difference["after"] == str(repository.folder / "robots" / "arm.robot.yaml")
+
+
 ROBOT_WITH_FILES = """\
 linkforge: 1
 name: robot

@@ -1,5 +1,6 @@
 """`linkforge import` on the command line."""
 
+import shlex
 import sys
 from hashlib import sha256
 from io import StringIO
@@ -45,10 +46,33 @@ def test_a_spec_begins_with_the_command_and_the_digest_of_its_files(tmp_path: Pa
         run = linkforge("import", "urdf/arm two.urdf.xacro", "size:=2 m", "-o", str(output), cwd=tmp_path)
         assert run.returncode == 0, run.stderr
         command, digest, rest = output.read_text("utf-8").split("\n", 2)
-        assert command == f"# linkforge import '{path}' 'size:=2 m'"
+        assert command == f"# linkforge import '{path}' 'size:=2 m' -o arm.robot.yaml"
         whole = sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
         assert digest == f"# sha256 of its files: {whole}"
         assert rest.startswith("\nlinkforge: 1\n")
+
+
+def test_the_command_in_a_spec_writes_it_again(tmp_path: Path):
+    pytest.importorskip("xacro")
+    for file, text in {
+        "far/pk/package.xml": "<package format='3'><name>pk2</name></package>",
+        "far/pk/base.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="base"/></robot>',
+        "urdf/arm.urdf.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arm">'
+        '<xacro:arg name="size" default="1"/><xacro:include filename="$(find pk2)/base.xacro"/></robot>',
+        "urdf/arm.srdf": '<robot name="arm"><group name="all"><link name="base"/></group></robot>',
+    }.items():
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_text(text, "utf-8")
+    spec = tmp_path / "specs" / "arm.robot.yaml"
+    given = ("urdf/arm.urdf.xacro", "--srdf", "urdf/arm.srdf", "size:=2", "--package", "pk2=far/pk", "-o", str(spec))
+    run = linkforge("import", *given, cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    written = spec.read_text("utf-8")
+    spec.unlink()
+    program, *words = shlex.split(written.splitlines()[0].removeprefix("# "))
+    again = linkforge(*words, cwd=spec.parent)
+    assert (program, again.returncode) == ("linkforge", 0), again.stderr
+    assert spec.read_text("utf-8") == written
 
 
 RAW = '<material name="empty"/>'
@@ -231,9 +255,9 @@ def test_only_an_srdf_is_offered_for_an_srdf_that_is_not_there(arm, tmp_path: Pa
     urdf = arm()
     assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
     assert "did you mean" not in capfd.readouterr().err
-    (tmp_path / "arm_2.srdf").write_text('<robot name="arm"/>')
+    (tmp_path / "arm_1.srdf").write_text('<robot name="arm"/>')
     assert main(["import", urdf, "--srdf", str(tmp_path / "arm1.srdf")]) == 1
-    assert "did you mean 'arm_2.srdf'?" in capfd.readouterr().err
+    assert "did you mean 'arm_1.srdf'?" in capfd.readouterr().err
 
 
 def test_a_spec_is_not_imported(capfd: pytest.CaptureFixture[str]):

@@ -397,6 +397,19 @@ CONTINUED = {
     "in an item, beyond its key": ("gazebo:\n  - plugins: {a: {filename: b,\n     parameters: }}\n", True),
     "in an item in brackets": ("gazebo:\n  - {material: a,\n  mu1: 1}\n", False),
     "in an item in brackets, beyond the dash": ("gazebo:\n  - {material: a,\n   mu1: 1}\n", True),
+    "in an item after an anchor": ("gazebo: &all\n  - {material: a,\n  mu1: 1}\nvariables: {again: *all}\n", False),
+    "in an item after an anchor, beyond the dash": (
+        "gazebo: &all\n  - {material: a,\n   mu1: 1}\nvariables: {again: *all}\n",
+        True,
+    ),
+    "in an item after an anchor, in the column of the key": (
+        "include: &all\n- [a.yaml,\nb.yaml]\nvariables: {again: *all}\n",
+        False,
+    ),
+    "after an anchor and a comment": (
+        "gazebo: &all # two\n\n  - {material: a,\n   mu1: 1}\nvariables: {again: *all}\n",
+        True,
+    ),
     "closed at the column of its key": ("links: {\n  base: {visual: {sphere: 1}},\n}\n", True),
     "closed at the column of its key by two": ("links: {base: {\n}}\n", False),
     "closed by a tab": ("links: {\n  base: ,\n\t}\n", True),

@@ -46,6 +46,20 @@ def mounted(tmp_path, arm: str, fields: str):
     return render_urdf(compilation.result()), messages
 
 
+def test_the_use_that_gives_the_prefix_is_shown(tmp_path):
+    (tmp_path / "arm.urdf").write_text(URDF.replace("VALUE", ""), "utf-8")
+    (tmp_path / "tool.robot.yaml").write_text(
+        "linkforge: 1\nname: tool\nlinks: {plate: }\nmodules:\n  arm: {use: arm.urdf, parent: plate}\n", "utf-8"
+    )
+    cell = tmp_path / "cell.robot.yaml"
+    cell.write_text(
+        "linkforge: 1\nname: cell\nlinks: {table: }\nmodules: {left: {use: tool.robot.yaml, parent: table}}\n", "utf-8"
+    )
+    (prefix,) = (one for one in compile_file(cell).diagnostics if one.code.id == "LF5706")
+    places = [(note.message, note.span.file.path.name, note.span.line) for note in prefix.notes]
+    assert places == [("used here", "tool.robot.yaml", 5), ("used here", "cell.robot.yaml", 4)]
+
+
 @pytest.mark.parametrize("arm", [URDF.replace("VALUE", ""), XACRO], ids=["urdf", "xacro"])
 def test_a_prefix_that_the_driver_reads_and_that_stays_is_reported_with_its_override(arm: str, tmp_path):
     if arm == XACRO:

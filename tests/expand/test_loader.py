@@ -220,3 +220,17 @@ def test_a_manifest_that_strangers_wrote_is_read_in_time_that_grows_with_its_len
     started = time.process_time()
     assert [one.code.id for one in compile_file(tmp_path / "robot.robot.yaml").diagnostics] == ["LF3005"]
     assert time.process_time() - started < 2
+
+
+def test_a_missing_file_is_not_suggested_by_its_ending_or_as_the_file_that_uses_it(tmp_path: Path):
+    """`nope` and `one` have but `.robot.yaml` in common, and a file that uses itself would be a cycle."""
+    for name, module in {"one": "nope", "grip": "gripp"}.items():
+        file = tmp_path / f"{name}.robot.yaml"
+        file.write_text(
+            f"linkforge: 1\nname: a\nlinks: {{base: }}\nmodules: {{m: {{use: {module}.robot.yaml, parent: base}}}}\n"
+        )
+        (error,) = compile_file(file).diagnostics
+        assert error.message == f"there is no file '{module}.robot.yaml'"
+    (tmp_path / "grippe.robot.yaml").touch()
+    (error,) = compile_file(tmp_path / "grip.robot.yaml").diagnostics
+    assert error.message == "there is no file 'gripp.robot.yaml'; did you mean 'grippe.robot.yaml'?"

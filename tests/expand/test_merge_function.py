@@ -1,8 +1,13 @@
 """Maps that expressions merge: parameters that depend on the model."""
 
+from dataclasses import replace
+from unittest.mock import Mock, patch
+
 import pytest
 
 from linkforge_compile import compile_text, render_urdf
+from linkforge_compile.expressions.functions import FUNCTIONS
+from linkforge_compile.limits import Limit
 
 SPEC = """\
 linkforge: 1
@@ -38,9 +43,13 @@ def test_parameters_of_hardware_are_those_of_all_maps_and_the_last_one_wins(mode
         assert f'<param name="{name}">{text}</param>' in render_urdf(robot)
 
 
-def test_merging_large_maps_again_and_again_is_stopped():
+def test_merging_large_maps_again_and_again_is_stopped_by_the_entries_that_are_merged():
+    merge = Mock(wraps=FUNCTIONS["merge"].compute)
     entries = ", ".join(f"k{number}: {number}" for number in range(10_000))
-    merges = "\n".join(f"  v{number}: $(merge(big, v{number - 1}))" for number in range(1, 400))
-    head = f"linkforge: 1\nname: r\nvariables:\n  big: {{{entries}}}\n  v0: $(big)\n"
-    spec = f"{head}{merges}\nlinks: {{a: {{when: $(len(v399) > 0)}}}}\n"
-    assert "LF3301" in {one.code.id for one in compile_text(spec).diagnostics}
+    link = "l_$(i): {for: {i: 400}, when: '$(len(merge(big, other)) > i)'}"
+    spec = f"linkforge: 1\nname: r\nvariables: {{big: {{{entries}}}, other: {{k: 1}}}}\nlinks: {{{link}}}\n"
+    with patch.dict(FUNCTIONS, merge=replace(FUNCTIONS["merge"], compute=merge)):
+        found = compile_text(spec).diagnostics
+    assert [one.code.id for one in found] == ["LF3301"]
+    merged = sum(len(part) for call in merge.call_args_list for part in call.args)
+    assert Limit.STEPS.most // 2 < merged <= Limit.STEPS.most

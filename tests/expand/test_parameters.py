@@ -25,6 +25,7 @@ LENGTH = Dimension.LENGTH
         ("{type: length}", "70 cm", Quantity(0.7, LENGTH)),
         ("{type: length}", "2", Quantity(2.0, LENGTH)),
         ("{type: vector}", "[0, 0, 10 mm]", [0, 0, Quantity(0.01, LENGTH)]),
+        ("{type: vector}", "0.1\n0.2\n0.3", [0.1, 0.2, 0.3]),
         ("{type: list}", "[a, 1]", ["a", 1]),
         ("{type: map}", "{a: {b: 1}}", {"a": {"b": 1}}),
         ("2.5", "3", 3),
@@ -63,6 +64,35 @@ def test_python_values_set_parameters(declared: str, given: object, value: objec
 def test_a_python_value_that_no_spec_can_say_is_a_type_error():
     with pytest.raises(TypeError, match="'p' cannot be object"):
         arguments_from_values({"p": object()})
+    with pytest.raises(TypeError, match="'p' cannot be bytes"):
+        arguments_from_values({"p": b"x"})
+
+
+@pytest.mark.parametrize(
+    ("declared", "given", "found"),
+    [
+        ("number", 10**400, "a bare number, found 'inf'"),
+        pytest.param("number", -(10**5000), "a bare number, found '-inf'", id="too long for str()"),
+        ("vector", [0, 0, 10**400], "three numbers, found 'inf' for z"),
+        ("vector", ".nan 0 0", "three numbers, found 'nan' for x"),
+        ("vector", "[0, true, 0]", "three numbers, found 'true' for y"),
+        ("vector", "[0, 1]", "three numbers, found a list of 2"),
+    ],
+)
+def test_what_is_no_finite_number_is_reported(declared: str, given: object, found: str):
+    spec = f"linkforge: 1\nname: a\nparameters: {{p: {{type: {declared}}}}}\nlinks: {{a: }}\n"
+    (reported,) = compile_text(spec, parameters={"p": given}).diagnostics
+    assert (reported.code.id, reported.message) == ("LF3023", f"parameter 'p' takes {found}")
+
+
+def test_text_that_cannot_be_encoded_is_reported_where_a_plugin_reads_it():
+    spec = (
+        "linkforge: 1\nname: a\nparameters: {p: {type: string}}\nlinks: {a: }\n"
+        "gazebo: {plugins: {p: {filename: p.so, parameters: {x: $(p)}}}}\n"
+    )
+    (reported,) = compile_text(spec, parameters={"p": "\ud800"}).diagnostics
+    assert reported.code.id == "LF7001"
+    assert "U+D800" in reported.message
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,12 @@
 """Test references to names that `when` or an override removed: the removal is shown."""
 
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
 from linkforge_compile import Compilation, compile_file
+from linkforge_compile.expand import deletions
 from tests.expand.assembling import write
 
 ARM = """
@@ -77,9 +79,10 @@ def test_a_joint_deleted_with_its_link_is_reported_with_the_deletion(tmp_path: P
         semantic: {groups: {all: {joints: [arm_j1]}}}
     """
     write(tmp_path, {"arm.robot.yaml": arm, "cell.robot.yaml": cell})
-    (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    change, told = compile_file(tmp_path / "cell.robot.yaml").diagnostics
     (note,) = told.notes
     assert (note.message, note.span and note.span.line) == ("to delete link 'link1' deletes 'j1', the joint to it", 7)
+    assert change.code.id == "LF3228"
 
 
 VENDOR = """
@@ -134,3 +137,47 @@ def test_joints_below_a_deleted_link_are_named_with_the_override(tmp_path: Path,
     ways_out = f"write 'joints: {{{first}: null}}' or 'joints: {{{first}: {{parent: …}}}}' as well"
     assert {one.code.id for one in found} >= {"LF4102"}
     assert f"{told}{ways_out}" in [note.message for one in found for note in one.notes]
+
+
+@pytest.mark.parametrize(
+    ("override", "code"),
+    [
+        ("{links: {world: null}}", "LF3229"),
+        ("{links: {world: null}, joints: {fix: null}}", None),
+        ("{links: {world: null}, joints: {fix: {origin: [1, 2, 3]}}}", "LF3228"),
+        ("{links: {link2: null}, joints: {j2: {axis: x}}}", "LF3228"),
+        ("{links: {world: null, base: null}, semantic: {virtual_joints: null}}", None),
+        ("{links: {world: null}, joints: {fix: {parent: link2}}}", None),
+    ],
+)
+def test_what_goes_with_a_link_against_the_intent_is_a_warning(tmp_path: Path, override: str, code: str | None):
+    found = [one.code.id for one in vendor_without(tmp_path, override).diagnostics]
+    assert [one for one in found if one in {"LF3228", "LF3229"}] == [code] * (code is not None)
+
+
+@pytest.mark.parametrize(
+    ("origin", "is_told"),
+    [("[0, 0.0, 0 mm]", False), ("{rpy: [0, 0, 0]}", False), ("{rpy: [0, 0, 90 deg]}", True), ("[0, 0, $(1)]", True)],
+)
+def test_only_a_pose_that_moves_the_module_is_told(tmp_path: Path, origin: str, is_told: bool):
+    arm = VENDOR.replace("[0, 0, 1]", origin)
+    found = vendor_without(tmp_path, "{links: {world: null}}", arm).diagnostics
+    assert ("LF3229" in {one.code.id for one in found}) is is_told
+
+
+def joints_read_to_delete_half(folder: Path, count: int) -> int:
+    """Return how often `deletions` reads a joint to delete half of the links around one."""
+    links = "".join(f", l{number}: " for number in range(count))
+    joints = ", ".join(f"j{number}: {{type: fixed, parent: base, child: l{number}}}" for number in range(count))
+    arm = f"""
+        links: {{base: {links}}}
+        joints: {{{joints}}}
+    """
+    deleted = ", ".join(f"l{number}: null" for number in range(0, count, 2))
+    with patch.object(deletions, "_ends_of", wraps=deletions._ends_of) as read:
+        vendor_without(folder, f"{{links: {{{deleted}}}}}", arm).result()
+    return read.call_count
+
+
+def test_deleting_twice_as_many_links_does_twice_the_work(tmp_path: Path):
+    assert 0 < joints_read_to_delete_half(tmp_path, 400) < 2.5 * joints_read_to_delete_half(tmp_path, 200)

@@ -3,6 +3,7 @@
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, DeletedNames
+from linkforge_compile.expand.values import Size, size_of
 from tests.expand.assembling import Assembled, assemble, plain, write
 
 
@@ -151,3 +152,7 @@ def test_a_file_without_repetition_is_not_walked_twice():
     made = assemble("links: {a: {visual: {sphere: 1}}}\nmetadata: {x: $(1 + 1)}")
     assert made.metadata == {"x": 2}
     assert made.instance.removed == DeletedNames()
+
+
+def test_the_keys_of_computed_maps_count_as_values_for_they_need_as_much_memory():
+    assert size_of({"left": 1, "right": (2, "<a/>")}, 99) == Size(nodes=1 + 2 + 2 + 2 + 1, characters=9 + 4, depth=2)

@@ -1,10 +1,10 @@
-"""Numbers keep their spelling through variables, data and parameters, because plugins read text."""
+"""What was not computed keeps its spelling through variables, data and parameters, because plugins read text."""
 
 import re
 
 import pytest
 
-from linkforge_compile import compile_file, render_urdf
+from linkforge_compile import compile_file, compile_text, render_urdf
 
 SPEC = """\
 linkforge: 1
@@ -13,9 +13,13 @@ parameters:
   firmware: 1.10
   table: {type: map, default: {rate: 20.0}}
   typed: {type: number, default: 1}
+  count: {type: integer, default: 1}
+  is_real: {type: boolean, default: false}
 variables:
   id: 007
   timeout: 1e6
+  enabled: True
+  endless: .inf
   copy: $(id)
   both: {id: $(id), list: [1.50, $(timeout)]}
 data: {file: table.yaml}
@@ -43,7 +47,6 @@ def written(tmp_path, value: str, **parameters: str) -> str:
     ("value", "text"),
     [
         ("$(firmware)", "1.10"),
-        ("v$(firmware)", "v1.10"),
         ("$(id)", "007"),
         ("$(copy)", "007"),
         ("$(timeout)", "1e6"),
@@ -55,6 +58,8 @@ def written(tmp_path, value: str, **parameters: str) -> str:
         ("$(id if firmware > 1 else timeout)", "007"),
         ("{for: {i: [0.10, 2.0]}, value: $(i)}", "0.10 2.0"),
         ("'$(merge(table, both).rate)'", "20.0"),
+        ("'$(merge(merge(both, table), file).rate)'", "20.0"),
+        ("$(enabled)", "True"),
     ],
 )
 def test_a_value_that_was_not_computed_is_as_written(value: str, text: str, tmp_path):
@@ -65,6 +70,10 @@ def test_a_value_that_was_not_computed_is_as_written(value: str, text: str, tmp_
     ("value", "text"),
     [
         ("$(firmware * 1)", "1.1"),
+        ("v$(firmware)", "v1.1"),
+        ("$(str(id))", "7"),
+        ("$(enabled and enabled)", "true"),
+        ("$(endless)", "inf"),
         ("$(id + 0)", "7"),
         ("$(-id)", "-7"),
         ("$(int(id))", "7"),
@@ -88,6 +97,28 @@ def test_parameters_of_hardware_are_as_written(tmp_path):
 def test_a_typed_parameter_is_as_typed(tmp_path):
     assert written(tmp_path, "$(typed)", typed="2.50") == "2.50"
     assert written(tmp_path, "$(table.rate)", table="{rate: 5.0}") == "5.0"
+
+
+def test_a_type_decides_the_spelling_of_whole_numbers_and_truth_values(tmp_path):
+    assert written(tmp_path, "$(count)", count="03") == "3"
+    assert written(tmp_path, "$(count)", count="3.0") == "3"
+    assert written(tmp_path, "$(is_real)", is_real="True") == "true"
+
+
+@pytest.mark.parametrize("numbers", ["[01, 02, 03]", "[1.0, 2.0, 3.0]", "[1, 2, 3]"])
+def test_names_do_not_depend_on_the_spelling_of_numbers(numbers: str):
+    robot = compile_text(
+        f"""\
+linkforge: 1
+name: r
+links:
+  l_0:
+  l_$(i): {{for: {{i: {numbers}}}}}
+joints:
+  j_$(i): {{for: {{i: {numbers}}}, type: fixed, parent: "$('l_' + str(i - 1))", child: l_$(i)}}
+"""
+    ).result()
+    assert [link.name for link in robot.links] == ["l_0", "l_1", "l_2", "l_3"]
 
 
 def test_fields_that_are_numbers_are_as_before(tmp_path):

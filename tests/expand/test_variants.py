@@ -67,8 +67,33 @@ def test_variants_that_set_a_parameter_to_different_values_are_reported_unless_i
     )
     assert [str(note.span) for note in warning.notes] == ["arm.robot.yaml:5:19"]
     assert not compile_text(clashing, variant="sim+lab", parameters=["hardware=mock"]).diagnostics
-    same = SPEC.replace("lab: {reach: 20 cm}", "lab: {hardware: gazebo}")
-    assert not compile_text(same, variant="sim+lab").diagnostics
+
+
+@pytest.mark.parametrize(
+    ("type_", "first", "second", "differ"),
+    [
+        ("string", "gazebo", "gazebo", False),
+        ("string", "1.10", "1.1", True),
+        ("length", "1 m", "1000 mm", False),
+        ("length", "1 m", "1", False),
+        ("number", "2", "2.0", False),
+        ("number", "2", "$(b * 2)", False),
+        ("number", "$(b * 2)", "2", False),
+        ("number", "$(b * 2)", "3", False),
+        ("list", "[1, 2]", "[1, 3]", True),
+    ],
+)
+def test_variants_disagree_if_their_values_of_the_type_are_known_to_differ(type_, first, second, differ):
+    spec = f"""\
+linkforge: 1
+name: arm
+parameters: {{a: {{type: {type_}}}, b: 1}}
+variants: {{x: {{a: {first}}}, q: {{a: {second}}}}}
+links: {{base: }}
+"""
+    for variant in ("x+q", "q+x"):
+        found = [one.code.id for one in compile_text(spec, variant=variant).diagnostics]
+        assert found == (["LF3081"] if differ else [])
 
 
 def test_a_variant_with_a_plus_in_its_name_is_one():

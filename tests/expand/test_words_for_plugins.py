@@ -52,6 +52,35 @@ def test_other_values_are_the_plugin_s_own(yaml: str, xml: str):
     assert written(yaml) == xml
 
 
+@pytest.mark.parametrize(
+    ("variable", "parameters", "word"),
+    [
+        ("{led: {when: $(real), color: red}}", "$(v)", "when"),
+        ("{when: $(real), color: red}", "{led: $(v)}", "when"),
+        ("{for: {i: 3}, value: 1}", "{led: $(v)}", "for"),
+        ("[{when: $(real), a: 3}, 2]", "{led: $(v)}", "when"),
+    ],
+)
+def test_in_the_value_of_an_expression_they_are_refused(variable: str, parameters: str, word: str):
+    plugin = f"gazebo: {{plugins: {{p: {{filename: p.so, parameters: {parameters}}}}}}}\n"
+    (found,) = compile_text(f"{HEAD}variables: {{v: {variable}}}\n{plugin}").diagnostics
+    assert (found.code.id, found.message.split()[0]) == ("LF3208", f"'{word}'")
+
+
+@pytest.mark.parametrize(
+    ("variable", "parameters", "xml"),
+    [
+        ("{when: idle, value: 3}", "{led: $(v)}", "<led><when>idle</when><value>3</value></led>"),
+        ("{state: {when: {_text: true}}}", "$(v)", "<state><when>true</when></state>"),
+        ("{for: {i: 3}}", "$(v)", "<for><i>3</i></for>"),
+    ],
+)
+def test_a_plugin_s_own_come_through_a_variable(variable: str, parameters: str, xml: str):
+    plugin = f"gazebo: {{plugins: {{p: {{filename: p.so, parameters: {parameters}}}}}}}\n"
+    urdf = render_urdf(compile_text(f"{HEAD}variables: {{v: {variable}}}\n{plugin}").result())
+    assert xml in re.sub(r"\s*\n\s*", "", urdf)
+
+
 def test_a_misspelled_condition_is_reported():
     spec = f"{HEAD}gazebo: {{properties: {{led: {{when: no, value: 1}}}}}}\n"
     assert [str(one).partition(": ")[2] for one in compile_text(spec).diagnostics] == [

@@ -1,5 +1,6 @@
 """The arguments of xacro files: which there are, without running them, and how a robot of two files takes them."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -205,6 +206,36 @@ def test_a_path_that_find_made_is_an_expression(package: Path):
     urdf = render_urdf(compile_file(package / "r.robot.yaml").result())
     assert urdf.count(f"{package}/") == 3
     assert f'"file://{package}/a.stl"' in urdf
+
+
+def test_a_path_is_an_expression_as_a_whole_and_a_folder_that_is_left_is_reported(package: Path):
+    texts = {
+        "a": ("$(find pkg)/config/a b.yaml", "$(path('package://pkg/config/a b.yaml'))"),
+        "b": ("$(find pkg)/*.yaml", "$(path('package://pkg/*.yaml'))"),
+        "c": ("--from $(find pkg)/a.yaml --to b", "--from $(path('package://pkg/a.yaml')) --to b"),
+        "d": ("$(find pkg)/a.yaml --to b", "$(path('package://pkg/a.yaml')) --to b"),
+        "e": ("$(find pkg)/a.yaml:$(find pkg)/b", "$(path('package://pkg/a.yaml')):$(path('package://pkg/b'))"),
+        "f": ("$(find pkg)_two/a.yaml", f"{package}_two/a.yaml"),
+        "left_1": ("$(find pkg)", str(package)),
+        "left_2": ("$(find pkg)/", f"{package}/"),
+        "left_3": ("$(find pkg)/it's.yaml", f"{package}/it's.yaml"),
+        "left_4": ("x $(find pkg)/*.yaml", f"x {package}/*.yaml"),
+    }
+    inside = "".join(f"<{tag}>{written}</{tag}>\n" for tag, (written, _) in texts.items())
+    file = package / "t.urdf.xacro"
+    file.write_text(
+        f"""{HEAD} name="r"><link name="a"/><gazebo><plugin name="p" filename="p.so">\n{inside}</plugin></gazebo>
+        <raw file="$(find pkg)/a b.yaml"/></robot>""",
+        "utf-8",
+    )
+    read = import_urdf(file, output=package)
+    assert read.text is not None
+    for tag, (_, expected) in texts.items():
+        assert re.search(rf"""\b{tag}: ["']?{re.escape(expected)}["']?$""", read.text, re.MULTILINE), tag
+    assert """file="$(path('package://pkg/a b.yaml'))\"""" in read.text
+    [left] = [one for one in read.diagnostics if one.code.id == "LF8025"]
+    assert left.span is not None
+    assert (left.span.line, left.notes[0].message) == (8, "and 3 more like this, the next one here")
 
 
 def test_a_path_of_a_package_that_the_spec_cannot_find_is_reported(package: Path, tmp_path: Path):

@@ -71,7 +71,7 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
         ("$(1 if on else rech)", "rech", "no parameter, variable or 'for' name 'rech' here; did you mean 'reach'?"),
         ("$(sinn(1))", "sinn", "no function named 'sinn'; did you mean 'sin'?"),
         ("$(sin)", "sin", "'sin' is a function; write sin(angle)"),
-        ("$(atan2(1))", "atan2(1)", "expected atan2(y, x), found 1 arguments"),
+        ("$(atan2(1))", "atan2(1)", "expected atan2(y, x), found 1 argument"),
         ("$(link('base'))", "link", "no function named 'link'"),
         ("$(joint(count))", "count", "joint() takes text, found a number"),
         ("$(path())", "path()", "expected path(file), found 0 arguments"),

@@ -1,6 +1,7 @@
 """Reading: every key and value has its place, and invalid YAML is reported in plain words."""
 
 import json
+import time
 from collections.abc import Iterator
 from textwrap import dedent
 
@@ -43,6 +44,13 @@ def tree_of(text: str) -> YamlMap:
     assert reported == []
     assert tree is not None
     return tree
+
+
+def test_the_time_for_lines_in_brackets_grows_with_their_length():
+    text = "links: {\n" + " " * 100_000 + "# base\n" + " " * 100_000 + "\n  }\n"
+    started = time.process_time()
+    assert plain(tree_of(text)) == {"links": {}}
+    assert time.process_time() - started < 2
 
 
 def plain(node: YamlNode | None) -> object:

@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.strict and is_faulty:
         print_failure(f"nothing written: {_reason(imported.losses)}", arguments)
         return FAULTY_SPEC
-    head = imported.origin.head(output.parent if output else Path()) if imported.origin else ""
+    head = imported.origin.head(output) if imported.origin else ""
     _write(head + imported.text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
 

@@ -15,7 +15,7 @@ NOT_IN_EXPRESSIONS = Code("LF3106", _E, "an expression cannot {use}; {instead}")
 UNKNOWN_NAME = Code("LF3107", _E, "no parameter, variable or 'for' name '{name}' here{hint}", is_unknown_name=True)
 UNKNOWN_FUNCTION = Code("LF3108", _E, "no function named '{name}'")
 FUNCTION_NOT_CALLED = Code("LF3110", _E, "'{function}' is a function; write {signature}")
-WRONG_ARGUMENT_COUNT = Code("LF3111", _E, "expected {signature}, found {count} arguments")
+WRONG_ARGUMENT_COUNT = Code("LF3111", _E, "expected {signature}, found {found}")
 
 WRONG_KIND = Code("LF3121", _E, "{operation} takes {expected}, found {found}", _DATA)
 DIMENSIONS_DIFFER = Code("LF3122", _E, "{operation} takes values of one dimension, found {left} and {right}")

@@ -86,6 +86,63 @@ NOISELESS_CONTACT = Code("LF7103", _W, "Gazebo's contact sensors have no noise; 
 FRAME_OF_PLUGIN = Code("LF7104", _W, "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is left out")
 FOREIGN_INFO = Code("LF7105", _W, "a sensor of type {type} has no '{info}'; it is left out")
 
+# LF74xx: MJCF
+NESTED_TOO_DEEP = Code(
+    "LF7401",
+    _E,
+    "MuJoCo cannot read bodies nested deeper than {most}, found {depth} links one below the other",
+)
+MASSLESS_IN_MUJOCO = Code(
+    "LF7402",
+    _W,
+    "MuJoCo refuses a moving body without mass, so '{link}' has 1e-9 kg in the MJCF; give it an inertial",
+    subject="link",
+)
+IMPOSSIBLE_FOR_MUJOCO = Code(
+    "LF7403",
+    _W,
+    "MuJoCo refuses the inertia of '{link}', so all its moments are larger in the MJCF; correct the tensor",
+    subject="link",
+)
+MESH_FOR_MUJOCO = Code(
+    "LF7404",
+    _W,
+    "mesh '{file}' is left out of the MJCF: {reason}",
+    subject="file",
+    grouped_by=("reason",),
+)
+NOT_IN_MJCF = Code(
+    "LF7405", _W, "MJCF has no {parts}; that of '{name}' is left out", subject="name", grouped_by=("parts",)
+)
+
+WORLD_BELOW_JOINT = Code(
+    "LF7406",
+    _E,
+    "MuJoCo has the name '{name}' for the ground, so no link below a joint can have it; rename this one",
+)
+
+ONE_ACTUATOR = Code(
+    "LF7407",
+    Severity.NOTE,
+    "joint '{joint}' has an actuator for its first command interface, '{interface}', and none for {others} in the MJCF",
+    subject="joint",
+    grouped_by=("interface", "others"),
+)
+NO_GAIN = Code(
+    "LF7408",
+    _W,
+    "the {interface} actuator of joint '{joint}' has MuJoCo's gain of 1; write `{gain}` into its parameters",
+    subject="joint",
+    grouped_by=("interface",),
+)
+
+OPPOSITE_SIGN = Code(
+    "LF7409",
+    Severity.NOTE,
+    "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
+    subject="sensor",
+)
+
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
 UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")

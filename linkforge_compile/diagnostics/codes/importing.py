@@ -40,10 +40,10 @@ MATERIAL_REPEATED = Code(
     "LF8022", _W, "material '{name}' is declared again with the same content; the spec has it once"
 )
 
-PATH_OF_THIS_MACHINE = Code(
+FOUND_PATH_OF_THIS_MACHINE = Code(
     "LF8025",
     _W,
-    "$(find {package}) becomes a path of this machine, as that package is not found from the spec's folder",
+    "$(find {package}) becomes a path of this machine, {reason}",
 )
 
 ENDS_IN_A_BLANK = Code("LF8024", _W, "'{name}' of <{tag}> ends in a blank, so urdfdom {effect}; delete the blank")
@@ -115,8 +115,8 @@ NEGATIVE_LIMIT = Code(
     "LF8104",
     _W,
     "{name} must be at least 0, found {value}; the spec has 0, so write what the joint may have",
-    named="joint",
-    alike=("name", "value"),
+    subject="joint",
+    grouped_by=("name", "value"),
 )
 NAME_REPLACED = Code(
     "LF8105",

@@ -109,23 +109,23 @@ NO_RANGE = Code(
     "LF5503",
     _W,
     "joint '{joint}' cannot move: its limits do not set {missing}, which URDF reads as 0",
-    named="joint",
-    alike=("missing",),
+    subject="joint",
+    grouped_by=("missing",),
 )
 EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upper limit are both {found}")
 RANGE_OF_ENDLESS_JOINT = Code(
     "LF5505",
     _W,
     "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out",
-    named="joint",
-    alike=("limits",),
+    subject="joint",
+    grouped_by=("limits",),
 )
 POWERLESS_JOINT = Code(
     "LF5506",
     _W,
     "joint '{joint}' cannot be driven: its limit of {fields} is 0",
-    named="joint",
-    alike=("fields",),
+    subject="joint",
+    grouped_by=("fields",),
 )
 SOFT_LIMITS_CROSSED = Code(
     "LF5507", _W, "soft limits of joint '{joint}' are reversed, from {lower} to {upper}, so it cannot move"
@@ -193,7 +193,8 @@ UNPREFIXED_NAME = Code(
     "LF5704",
     _W,
     "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}",
-    named="name",
+    subject="name",
+    grouped_by=("kind",),
 )
 ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"

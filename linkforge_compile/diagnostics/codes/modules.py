@@ -126,6 +126,15 @@ POSITIONS_AND_KEYS = Code("LF3224", _E, "'{field}' is overridden by position, an
 EMPTY_OVERRIDE = Code("LF3225", _E, "the override of '{field}' is empty; write a value, or 'null' to delete it")
 SAME_AS_BEFORE = Code("LF3226", _W, "'{field}' already has this value, so the override changes nothing")
 NOTHING_TO_DELETE = Code("LF3227", _W, "'{field}' is not set, so there is nothing to delete")
+CHANGE_OF_DELETED = Code(
+    "LF3228", _W, "joint '{name}' is deleted with link '{link}', so this change has no effect{way_out}"
+)
+DELETED_POSE = Code(
+    "LF3229",
+    _W,
+    "this also deletes joint '{name}' and its pose; to keep the pose, write it as 'origin' where the module is used; "
+    "write 'joints: {{{name}: null}}' as well to delete it without this warning",
+)
 MOUNT_IS_NO_JOINT = Code(
     "LF3265", _E, "'{name}' is the module's mount, not among its joints; write 'mount: {{{name}: …}}' to override it"
 )

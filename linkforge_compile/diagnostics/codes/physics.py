@@ -12,7 +12,8 @@ ZERO_INERTIA = Code(
     _W,
     "link '{link}' has a mass of {mass} kg and an inertia of zero",
     _VALUE,
-    named="link",
+    subject="link",
+    grouped_by=("mass",),
 )
 INDEFINITE_INERTIA = Code(
     "LF6002", _W, "principal moments of inertia of link '{link}' must be above 0, found {moments}", _VALUE
@@ -29,7 +30,8 @@ FLATTER_THAN_A_PLATE = Code(
     "the largest principal moment of inertia of link '{link}' exceeds the sum of the others by {excess} %; "
     'MuJoCo refuses such a link, unless <compiler balanceinertia="true"/> is set',
     _VALUE,
-    named="link",
+    subject="link",
+    grouped_by=("excess",),
 )
 MASSLESS_BODY = Code(
     "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
@@ -108,7 +110,7 @@ BLOCK_OF_MERGED_JOINT = Code(
     "Gazebo merges the links of fixed joint '{joint}' and drops this; set `preserveFixedJoint: true` in it",
     in_xml="Gazebo merges the links of fixed joint '{joint}' and drops this; write "
     "<preserveFixedJoint>true</preserveFixedJoint> in it",
-    named="joint",
+    subject="joint",
 )
 MERGED_LINK_NAMED = Code(
     "LF6041",
@@ -124,13 +126,13 @@ UNTOUCHED_VISUALS = Code(
     "LF6050",
     _N,
     "link '{link}' has a visual and no collision, so everything passes through",
-    named="link",
+    subject="link",
 )
 UNSEEN_COLLISIONS = Code(
     "LF6051",
     _N,
     "link '{link}' has a collision and no visual, so what others touch is invisible",
-    named="link",
+    subject="link",
 )
 
 # LF61xx: ros2_control

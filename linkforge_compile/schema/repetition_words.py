@@ -6,9 +6,8 @@ from collections.abc import Collection
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import LONG_FORM
-from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.schema.shapes import Shape
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
+from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 
 FOR_AND_WHEN = frozenset({"for", "when"})
@@ -49,11 +48,3 @@ def without_words(node: YamlMap, words: Collection[str], shape: Shape, sink: Dia
         sink.report(LONG_FORM.at(where, found=f"'{others[0].text}'" if others else "no 'value'"))
         return None
     return rest["value"].value
-
-
-def repeats_tag(entry: YamlEntry, around: Shape, evaluator: Evaluator) -> bool:
-    """Whether an entry of what a plugin reads stands for a list: its `for` has no name that is in its key."""
-    node = entry.value
-    is_repeated = around.has_elements and "for" in repetition_words(node, around, is_entry=True)
-    names = node.child("for") if is_repeated else None
-    return isinstance(names, YamlMap) and evaluator.names_in(entry.key).isdisjoint(names.entries)

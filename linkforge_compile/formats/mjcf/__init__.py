@@ -1,0 +1,39 @@
+"""MJCF: the robot for MuJoCo."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.format import Option, TemplateFormat
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.format import Options
+    from linkforge_compile.formats.views import View
+
+__all__ = ["BASE", "Mjcf"]
+
+BASE = Option("base", ("fixed", "free"), "fixed", "whether the robot floats in MuJoCo (default: fixed)")
+
+
+class Mjcf(TemplateFormat):
+    """The format MJCF; its suffix is `.mjcf`, as a file that ends in `.xml` is a URDF."""
+
+    name = "mjcf"
+    suffix = ".mjcf"
+    description = "the robot for MuJoCo"
+    has_relative_paths = True
+    options = (BASE,)
+
+    def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
+        from linkforge_compile.formats.mjcf.limits import mjcf_limits
+
+        yield from mjcf_limits(robot, is_free=BASE.value(options) == "free")
+
+    def root_view(self, robot: Robot, options: Options) -> View:
+        from linkforge_compile.formats.mjcf.view import robot_view
+
+        return robot_view(robot, is_free=BASE.value(options) == "free")

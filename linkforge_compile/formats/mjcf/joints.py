@@ -1,0 +1,116 @@
+"""Joints in MJCF, and the equalities that hold some of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.models.geometry import IDENTITY, Vector3
+from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
+from linkforge_compile.formats.element import leaf_at
+from linkforge_compile.formats.mjcf.tree import WORLD
+from linkforge_compile.formats.xml_text import Xml
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+_UNBOUNDED = 1e10
+"""The end of a range that is open on one side [rad, m]: the largest number that MuJoCo accepts."""
+
+_AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
+
+
+def joint_elements(joint: Joint) -> tuple[Xml, ...]:
+    """Return the joints of MuJoCo that let a body move as a joint does: none, one or several."""
+    maker = _MAKERS.get(joint.type)
+    return maker(joint) if maker else ()
+
+
+def _single(joint: Joint) -> tuple[Xml, ...]:
+    limits, dynamics = joint.limits, joint.dynamics
+    has_range = joint.type != JointType.CONTINUOUS and limits is not None and not is_locked(limits)
+    return (
+        leaf_at(
+            "joint",
+            joint.source,
+            name=joint.name,
+            type="slide" if joint.type == JointType.PRISMATIC else None,
+            axis=joint.axis,
+            range=_range(limits) if limits and has_range else None,
+            damping=(dynamics.damping or None) if dynamics else None,
+            frictionloss=(dynamics.friction or None) if dynamics else None,
+        ),
+    )
+
+
+def _range(limits: JointLimits) -> tuple[float, float] | None:
+    lower, upper = limits.lower, limits.upper
+    if lower is None and upper is None:
+        return None
+    return (-_UNBOUNDED if lower is None else lower, _UNBOUNDED if upper is None else upper)
+
+
+def is_locked(limits: JointLimits) -> bool:
+    """Whether a joint has one position alone, which is no range for MuJoCo."""
+    return limits.lower is not None and limits.lower == limits.upper
+
+
+def _floating(joint: Joint) -> tuple[Xml, ...]:
+    """Return a free joint, which a body has in the world alone; elsewhere three slides and a ball are the same."""
+    if joint.parent == WORLD and joint.origin == IDENTITY:
+        return (leaf_at("freejoint", joint.source, name=joint.name),)
+    slides = [_part(joint, suffix, "slide", axis) for suffix, axis in _AXES.items()]
+    return (*slides, leaf_at("joint", joint.source, name=f"{joint.name}_ball", type="ball"))
+
+
+def _planar(joint: Joint) -> tuple[Xml, ...]:
+    """Return two slides in the plane and a hinge about its normal."""
+    normal = joint.axis or _AXES["z"]
+    first, second = _axes_of_plane(normal)
+    return (
+        _part(joint, "x", "slide", first),
+        _part(joint, "y", "slide", second),
+        _part(joint, "yaw", "hinge", normal),
+    )
+
+
+def _axes_of_plane(normal: Vector3) -> tuple[Vector3, Vector3]:
+    """Return two axes that make a right-handed frame with a normal; x and y for z."""
+    x, y, z = normal
+    away = _AXES["x"] if abs(x) < 0.9 else _AXES["y"]
+    second = Vector3(y * away.z - z * away.y, z * away.x - x * away.z, x * away.y - y * away.x)
+    first = Vector3(second.y * z - second.z * y, second.z * x - second.x * z, second.x * y - second.y * x)
+    return first, second
+
+
+def _part(joint: Joint, suffix: str, kind: str, axis: Vector3) -> Xml:
+    return leaf_at("joint", joint.source, name=f"{joint.name}_{suffix}", type=kind, axis=axis)
+
+
+_MAKERS: Mapping[str, Callable[[Joint], tuple[Xml, ...]]] = {
+    JointType.REVOLUTE: _single,
+    JointType.CONTINUOUS: _single,
+    JointType.PRISMATIC: _single,
+    JointType.FLOATING: _floating,
+    JointType.PLANAR: _planar,
+}
+
+_WITH_RANGE = (JointType.REVOLUTE, JointType.PRISMATIC)
+
+
+def equality_elements(robot: Robot) -> Sequence[Xml]:
+    """Return the constraints on joints: those that mimic another one, and those with one position alone."""
+    return [element for joint in robot.joints for element in _equalities(joint, robot)]
+
+
+def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
+    mimic, limits = joint.mimic, joint.limits
+    if joint.type not in (*_WITH_RANGE, JointType.CONTINUOUS):
+        return ()
+    if mimic and robot.has_joint(mimic.joint):
+        coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
+        return (leaf_at("joint", mimic.source, joint1=joint.name, joint2=mimic.joint, polycoef=coefficients),)
+    if limits and joint.type in _WITH_RANGE and is_locked(limits):
+        coefficients = (limits.lower or 0.0, 0, 0, 0, 0)
+        return (leaf_at("joint", limits.source, joint1=joint.name, polycoef=coefficients),)
+    return ()

@@ -1,0 +1,36 @@
+"""The view of a robot that the templates of MJCF lay out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.mjcf.actuators import actuator_element, drives
+from linkforge_compile.formats.mjcf.bodies import body_views, world_elements
+from linkforge_compile.formats.mjcf.contacts import exclusion_elements
+from linkforge_compile.formats.mjcf.joints import equality_elements
+from linkforge_compile.formats.mjcf.keyframes import key_elements
+from linkforge_compile.formats.mjcf.meshes import mesh_assets
+from linkforge_compile.formats.mjcf.sensors import sensor_elements
+from linkforge_compile.formats.mjcf.tree import BodyTree
+from linkforge_compile.formats.views import View
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+
+def robot_view(robot: Robot, *, is_free: bool) -> View:
+    """Return what templates see of a robot in MJCF; one that `is_free` has six degrees of freedom more."""
+    tree, meshes = BodyTree.of(robot), mesh_assets(robot)
+    return View(
+        attributes=attributes_at(robot.source, "name", model=robot.name),
+        mesh_folder=meshes.folder,
+        meshes=meshes.elements,
+        world=world_elements(robot, meshes.names),
+        bodies=tuple(body_views(robot, tree, meshes.names, is_free=is_free)),
+        exclusions=exclusion_elements(robot, tree, is_free=is_free),
+        equalities=equality_elements(robot),
+        actuators=[actuator_element(drive) for drive in drives(robot)],
+        sensors=tuple(sensor_elements(robot)),
+        keys=tuple(key_elements(robot, tree, is_free=is_free)),
+    )

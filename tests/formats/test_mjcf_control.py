@@ -1,0 +1,202 @@
+"""MJCF: actuators, contacts, keyframes and sensors, as MuJoCo has them."""
+
+import math
+
+import numpy
+import pytest
+
+from tests.consumers import mjcf_model
+from tests.formats.mjcf import compiled, document, reported
+
+mujoco = pytest.importorskip("mujoco")
+
+ARM = """
+links:
+  base: {collision: {sphere: 0.1}}
+  upper: {inertial: *unit, collision: {sphere: 0.1}}
+  lower: {inertial: *unit, collision: {sphere: 0.1}}
+joints:
+  shoulder:
+    type: revolute
+    parent: base
+    child: upper
+    axis: [0, 0, 1]
+    limits: {lower: -1, upper: 2, effort: 5, velocity: 3}
+  elbow:
+    type: prismatic
+    parent: upper
+    child: lower
+    axis: [1, 0, 0]
+    origin: {xyz: [0.5, 0, 0]}
+    limits: {lower: 0, upper: 0.5, effort: 7, velocity: 4}
+"""
+
+CONTROL = """
+ros2_control:
+  arm:
+    hardware_plugin: mock_components/GenericSystem
+    joints:
+      shoulder: {command_interfaces: SHOULDER, state_interfaces: [position]}
+      elbow: {command_interfaces: [effort], state_interfaces: [position]}
+"""
+
+
+def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
+    return [{"": str(one.tag)} | dict(one.attrib) for one in document(text, **options).iterfind(path)]
+
+
+@pytest.mark.parametrize(
+    ("interface", "expected"),
+    [
+        (
+            "{position: {kp: 200, kv: 20}}",
+            {"": "position", "ctrlrange": "-1 2", "forcerange": "-5 5", "kp": "200", "kv": "20"},
+        ),
+        (
+            "{position: {kp: 9, min: -0.5, max: 1}}",
+            {"": "position", "ctrlrange": "-0.5 1", "forcerange": "-5 5", "kp": "9"},
+        ),
+        ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "forcerange": "-5 5", "kv": "8"}),
+        ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
+    ],
+)
+def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, str]):
+    robot = ARM + CONTROL.replace("SHOULDER", interface)
+    assert elements(robot, "actuator/*") == [
+        expected | {"name": "shoulder", "joint": "shoulder"},
+        {"": "motor", "name": "elbow", "joint": "elbow", "ctrlrange": "-7 7"},
+    ]
+    assert mjcf_model(compiled(robot)).nu == 2
+    assert reported(robot) == []
+
+
+def test_a_joint_has_one_actuator():
+    robot = ARM + CONTROL.replace("SHOULDER", "[effort, velocity, torque_constant]")
+    assert [one[""] for one in elements(robot, "actuator/*")] == ["motor", "motor"]
+    assert reported(robot) == [
+        "LF7407 joint 'shoulder' has an actuator for its first command interface, 'effort', and none for 'velocity' "
+        "and 'torque_constant' in the MJCF"
+    ]
+
+
+def test_an_actuator_without_a_gain_is_reported():
+    assert reported(ARM + CONTROL.replace("SHOULDER", "[position]")) == [
+        "LF7408 the position actuator of joint 'shoulder' has MuJoCo's gain of 1; write `kp` into its parameters"
+    ]
+
+
+def test_disabled_collisions_and_joints_at_a_static_body_are_exclusions():
+    robot = ARM + "semantic: {disabled_collisions: {base: {upper: Adjacent, lower: Never}}}\n"
+    pairs = [(one["body1"], one["body2"]) for one in elements(robot, "contact/exclude")]
+    assert pairs == [("base", "upper"), ("base", "lower")]
+    assert elements(ARM, "contact/exclude") == [{"": "exclude", "body1": "base", "body2": "upper"}]
+    assert elements(ARM, "contact/exclude", base="free") == [], "MuJoCo excludes parents that move by itself"
+
+
+def test_adjacent_links_do_not_collide():
+    for base in ("fixed", "free"):
+        robot = ARM.replace("base: {", "base: {inertial: *unit, ").replace("xyz: [0.5, 0, 0]", "xyz: [5, 0, 0]")
+        model = mjcf_model(compiled(robot), base=base)
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        assert data.ncon == 0, base
+
+
+STATES = """
+semantic:
+  groups: {arm: {joints: [shoulder, elbow]}, tool: {joints: [elbow]}}
+  group_states:
+    arm: {home: {shoulder: 0.5, elbow: 0.25}, ready: {shoulder: 1}}
+    tool: {home: {elbow: 0.125}}
+"""
+
+
+def test_states_of_groups_are_keyframes():
+    robot = ARM + CONTROL.replace("SHOULDER", "{position: {kp: 200}}") + STATES
+    keys = {one["name"]: (one["qpos"], one["ctrl"]) for one in elements(robot, "keyframe/key")}
+    assert keys == {"arm_home": ("0.5 0.25", "0.5 0"), "ready": ("1 0", "1 0"), "tool_home": ("0 0.125", "0 0")}
+    assert mjcf_model(compiled(robot)).nkey == 3
+
+
+def test_a_keyframe_of_a_free_base_begins_with_its_pose():
+    robot = ARM.replace("base: {", "base: {inertial: *unit, ") + STATES
+    model = mjcf_model(compiled(robot), base="free")
+    numpy.testing.assert_array_equal(model.key("ready").qpos, [0, 0, 0, 1, 0, 0, 0, 1, 0])
+
+
+def test_a_joint_that_mimics_follows_in_a_keyframe():
+    robot = ARM.replace("axis: [1, 0, 0]", "axis: [1, 0, 0]\n    mimic: {joint: shoulder, multiplier: 2, offset: 0.25}")
+    states = "semantic: {groups: {arm: {joints: [shoulder]}}, group_states: {arm: {ready: {shoulder: 1}}}}\n"
+    assert [one["qpos"] for one in elements(robot + states, "keyframe/key")] == ["1 2.25"]
+
+
+SENSORS = """
+sensors:
+  imu:
+    type: imu
+    link: upper
+    origin: {xyz: [0, 0, 0.5], rpy: [0, 0, 90 deg]}
+    imu: {angular_velocity_noise: {stddev: 0.25}}
+  eye: {type: camera, link: lower, camera: {horizontal_fov: 90 deg, width: 200, height: 100}}
+  wrench: {type: force_torque, link: lower, force_torque: {}}
+"""
+
+
+def test_sensors_measure_at_sites():
+    robot = ARM + SENSORS
+    assert elements(robot, "sensor/*") == [
+        {"": "gyro", "name": "imu_gyro", "site": "imu", "noise": "0.25"},
+        {"": "accelerometer", "name": "imu_accelerometer", "site": "imu"},
+        {"": "framequat", "name": "imu_orientation", "objtype": "site", "objname": "imu"},
+        {"": "force", "name": "wrench_force", "site": "wrench"},
+        {"": "torque", "name": "wrench_torque", "site": "wrench"},
+    ]
+    model = mjcf_model(compiled(robot))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    numpy.testing.assert_allclose(data.site("imu").xpos, [0, 0, 0.5], atol=1e-12)
+    numpy.testing.assert_allclose(
+        data.sensor("imu_orientation").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12
+    )
+
+
+def test_a_camera_looks_where_gazebos_does():
+    model = mjcf_model(compiled(ARM + SENSORS))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    right, up, back = data.cam("eye").xmat.reshape(3, 3).T
+    numpy.testing.assert_allclose([right, up, back], [[0, -1, 0], [0, 0, 1], [-1, 0, 0]], atol=1e-12)
+    assert model.cam("eye").fovy == pytest.approx(2 * math.degrees(math.atan(0.5)))
+
+
+def test_mujoco_senses_the_force_of_the_parent_on_the_child():
+    """The sign is as Gazebo has it for `parent_to_child`; with the default, `child_to_parent`, it is reported."""
+    robot = """
+links: {base: , weight: {inertial: *unit}}
+joints: {weld: {type: fixed, parent: base, child: weight}}
+sensors: {wrench: {type: force_torque, link: weight, force_torque: {DIRECTION}}}
+"""
+    model = mjcf_model(compiled(robot.replace("DIRECTION", "measure_direction: parent_to_child")))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert data.sensor("wrench_force").data[2] == pytest.approx(9.81)
+    assert reported(robot.replace("DIRECTION", "measure_direction: parent_to_child")) == []
+    assert reported(robot.replace("DIRECTION", "")) == [
+        "LF7409 MuJoCo senses the force of the parent on the child, so the signs of 'wrench' are opposite"
+    ]
+
+
+def test_sensors_without_counterpart_are_reported_by_type():
+    robot = (
+        ARM
+        + """
+sensors:
+  scan: {type: lidar, link: base, lidar: {}}
+  back: {type: lidar, link: base, lidar: {}}
+  wrench: {type: force_torque, link: lower, force_torque: {frame: parent}}
+"""
+    )
+    assert reported(robot) == [
+        "LF7405 MJCF has no sensors of type lidar; that of 'scan' is left out; the same for 'back'",
+        "LF7405 MJCF has no force-torque sensors in the frame of the parent; that of 'wrench' is left out",
+    ]
