@@ -30,6 +30,7 @@ from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expand.xacro_answers import XacroAnswers
 from linkforge_compile.expressions import Fault
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
+from linkforge_compile.roots import exists
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlNode, YamlScalar
 from linkforge_compile.units import Quantity, number_text, parse_quantity
@@ -107,7 +108,7 @@ def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> P
         str(folder): FoundPackage(name, find_package(name, {}, spec_folder, roots))
         for name, folder in expansion.packages.items()
     }
-    return PackagePaths(found, roots)
+    return PackagePaths(found, lambda file: roots.hold(file) and exists(file))
 
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:

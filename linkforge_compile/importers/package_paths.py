@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
-
-from linkforge_compile.roots import Roots, exists
 
 _PATH = r"(?>[\w.+/-]*\w)(?!'\w)"
 """A path in a text with other words."""
@@ -31,10 +29,10 @@ class FoundPackage(NamedTuple):
 
 
 class PackagePaths:
-    """The folders of packages in texts, by their paths; another copy of a package is searched within `roots`."""
+    """The folders of packages in texts, by their paths; `is_there` tells whether another copy has a file."""
 
-    def __init__(self, packages: Mapping[str, FoundPackage], roots: Roots) -> None:
-        self._packages, self._roots = packages, roots
+    def __init__(self, packages: Mapping[str, FoundPackage], is_there: Callable[[Path], bool]) -> None:
+        self._packages, self._is_there = packages, is_there
         folders = "|".join(map(re.escape, sorted(packages, key=len, reverse=True)))
         begin = r"""(?:(?P<whole>(?<=file://)|(?<=[">])|\A)|(?<![\w./-]))"""
         self._paths = re.compile(rf"{begin}(?P<folder>{folders})/(?P<path>(?(whole)(?:{_WHOLE_PATH})|{_PATH}))")
@@ -53,8 +51,7 @@ class PackagePaths:
         near = self._packages[found["folder"]].near
         if near is None or str(near) == found["folder"]:
             return near is not None
-        file = near / found["path"]
-        return self._roots.hold(file) and exists(file)
+        return self._is_there(near / found["path"])
 
     def _expression(self, found: re.Match[str]) -> str:
         package, path = self._packages[found["folder"]], found["path"]
@@ -62,4 +59,4 @@ class PackagePaths:
         return f"$(path('package://{package.name}/{path}'))" if is_kept else found[0]
 
 
-NO_PACKAGE_PATHS = PackagePaths({}, Roots())
+NO_PACKAGE_PATHS = PackagePaths({}, lambda _: False)
