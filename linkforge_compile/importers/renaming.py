@@ -21,6 +21,9 @@ _REFERENCES = ("link", "link1", "link2", "base_link", "tip_link", "parent_link",
 """Attributes of an SRDF that name links and joints."""
 _NAMED_BY_NAME = ("link", "joint", "passive_joint")
 """Tags of an SRDF whose attribute `name` names a link or joint."""
+_NUMBERS = re.compile(r"[-+.\deE\s]+")
+"""A value that may be a size or an axis; as a name it is replaced only in the attributes of `_NAMING`."""
+_NAMING = ("name", "link", "joint", "reference")
 _WHOLE_TEXT = re.compile(r"""(?<=["'>])[^"'<>]+(?=["'<])""")
 
 Renamed = Mapping[str, str]
@@ -105,7 +108,10 @@ def _report(root: XmlElement, renamed: Renamed, sink: Diagnostics) -> None:
 
 
 def _with_names(element: XmlElement, renamed: Renamed) -> XmlElement:
-    values = {key: renamed.get(value, value) for key, value in element.values.items()}
+    values = {
+        key: renamed.get(value, value) if key in _NAMING or not _NUMBERS.fullmatch(value) else value
+        for key, value in element.values.items()
+    }
     content: tuple[XmlContent, ...] = tuple(
         _with_names(item, renamed)
         if isinstance(item, XmlElement)

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from linkforge_compile import compile_file, compile_text, import_urdf
+from linkforge_compile.core import Vector3
 
 
 def test_an_srdf_gets_the_names_that_the_parts_of_its_robot_got(tmp_path: Path):
@@ -31,3 +32,17 @@ def test_an_srdf_gets_the_names_that_the_parts_of_its_robot_got(tmp_path: Path):
         assert [(group.name, group.links) for group in semantic.groups] == [("a b", ("a-b",))]
         assert [(one.link1, one.link2, one.reason) for one in semantic.disabled_collisions] == [("base", "a-b", "a b")]
         assert '<unknown link="a-b" text="a b"/>' in semantic.extra_elements
+
+
+def test_numbers_that_are_also_names_of_links_stay(tmp_path: Path):
+    urdf = tmp_path / "r.urdf"
+    urdf.write_text(
+        """<robot name="r"><link name="0 0 1"><visual><origin xyz="0 0 1"/><geometry><box size="1 1 1"/></geometry>
+        </visual></link><link name="1 1 1"/>
+        <joint name="j" type="fixed"><parent link="0 0 1"/><child link="1 1 1"/></joint></robot>""",
+        "utf-8",
+    )
+    (joint,) = (robot := compile_text(import_urdf(urdf).text or "").result()).joints
+    assert (joint.parent, joint.child) == ("0_0_1", "1_1_1")
+    (visual,) = robot.link("0_0_1").visuals
+    assert (visual.origin.xyz.z, visual.geometry.size) == (1, Vector3(1, 1, 1))
