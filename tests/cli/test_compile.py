@@ -410,7 +410,7 @@ def test_diagnostics_that_nothing_reads_change_no_exit_code(pendulum: Path, spec
 def test_an_ending_that_is_no_output_is_refused_and_nothing_is_overwritten(pendulum: Path, output: str):
     run = linkforge("compile", "swing.robot.yaml", "-o", output, cwd=pendulum)
     assert run.returncode == 2
-    assert "ends in .urdf, .srdf or .xml" in run.stderr
+    assert "ends in .urdf, .srdf, .mjcf or .xml" in run.stderr
     assert (pendulum / "swing.robot.yaml").read_text() == PENDULUM
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file
+from linkforge_compile.core import Robot
 from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import HEAD, compiled, document, reported
@@ -246,3 +247,8 @@ def test_keeping_a_fixed_joint_is_no_loss():
     assert reported(kept.replace("SETTING", "stop_cfm: 0.5")) == [
         "LF7405 MJCF has no settings for Gazebo; that of 'weld' is left out"
     ]
+
+
+def test_a_robot_without_links_is_a_document_without_bodies():
+    text = MJCF.render(Robot("empty"), Rendering())[0].text
+    assert mujoco.MjModel.from_xml_string(text).nbody == 1  # the world

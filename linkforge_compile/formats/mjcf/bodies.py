@@ -32,7 +32,7 @@ def body_views(robot: Robot, tree: BodyTree, meshes: MeshNames, *, is_free: bool
     massless = {link.name for link in massless_movers(robot, tree, is_free=is_free)}
     nodes = [node for node in tree.nodes if node.link.name != WORLD]
     following = [*(node.depth for node in nodes[1:]), 0]
-    for node, next_depth in zip(nodes, following, strict=True):
+    for node, next_depth in zip(nodes, following, strict=False):  # a robot may have no links
         link, joint = node.link, node.joint
         placed = pose(joint.origin) if joint else {}
         gravcomp = None if link.physics.gravity else 1
