@@ -24,11 +24,11 @@ def in_common_folders(sides: Sequence[Side], robots: tuple[Robot, Robot], argume
     from linkforge_compile.compare import with_folders
 
     before, after = sides
-    packages = after.all_packages(arguments)
-    real = {name: os.path.realpath(folder) for name, folder in packages.items()}
-    are = {path: real[name] for name, folder in packages.items() for path in _spellings(folder)}
-    packages = before.all_packages(arguments)
-    were = {path: real[name] for name, folder in packages.items() if name in real for path in _spellings(folder)}
+    packages_after, packages_before = after.all_packages(arguments), before.all_packages(arguments)
+    real = {name: os.path.realpath(folder) for name, folder in packages_after.items()}
+    are = {path: real[name] for name, folder in packages_after.items() for path in _spellings(folder)}
+    common = {name: folder for name, folder in packages_before.items() if name in real}
+    were = {path: real[name] for name, folder in common.items() for path in _spellings(folder)}
     if before.tree is not None:
         top, installed = before.tree.top, packages_in_environment()
         # A text may have the path of a link to the repository, and that of an installed package.

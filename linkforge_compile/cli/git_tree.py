@@ -47,7 +47,8 @@ class GitTree(NamedTuple):
     def path(self, path: str | Path) -> Path:
         """Return the copy of a file or folder; the path itself for one that is outside of the repository."""
         # The folder may be a link into the repository; a file that is a link is one in the copy too.
-        absolute = Path(os.path.realpath(Path(path).parent), Path(path).name)
+        folder, name = (path, "") if Path(path).name == ".." else (Path(path).parent, Path(path).name)
+        absolute = Path(os.path.realpath(folder), name)
         return self.copy / absolute.relative_to(self.top) if absolute.is_relative_to(self.top) else Path(path)
 
     def path_as_typed(self, path: str) -> str:

@@ -6,9 +6,11 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import is_dataclass, replace
 from functools import partial
+from typing import Any
 
 from linkforge_compile.compare.fields import compared_fields
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Interface
 
 
 def with_folders(robot: Robot, folders: Mapping[str, str]) -> Robot:
@@ -35,6 +37,10 @@ def _map_texts(value: object, change: Callable[[str], str]) -> object:
             new = {name: _map_texts(item, change) for name, item in old.items()}
             changes = {name: item for name, item in new.items() if item is not old[name]}
             return replace(value, **changes) if changes else value
+        case Interface():
+            fields: dict[str, Any] = {name: _map_texts(getattr(value, name), change) for name in compared_fields(value)}
+            is_changed = any(item is not getattr(value, name) for name, item in fields.items())
+            return Interface(str(value), source=value.source, **fields) if is_changed else value
         case str():
             text = change(value)
             return value if text == value else text

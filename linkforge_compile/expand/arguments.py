@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
@@ -135,15 +135,17 @@ def _span(file: SourceFile, start: int, length: int) -> Span:
 def _spec_value(name: str, value: object) -> Value:
     if value is None or isinstance(value, bool | float | str | Quantity):
         return value
-    if isinstance(value, int):
-        # Text with too many digits is infinite as well, which no parameter accepts.
-        return value if abs(value) <= sys.float_info.max else math.copysign(math.inf, 1 if value > 0 else -1)
+    if isinstance(value, int) and abs(value) <= sys.float_info.max:
+        return value
     if isinstance(value, os.PathLike):
         return str(value)
     from numbers import Real
 
-    if isinstance(value, Real):  # such as numpy's
-        return float(value)
+    if isinstance(value, Real):  # such as numpy's, and integers beyond any double
+        try:
+            return float(value)
+        except OverflowError:  # infinite, as text with too many digits is; no parameter accepts it
+            return math.inf if cast("int", value) > 0 else -math.inf
     if isinstance(value, Mapping):
         return {str(key): _spec_value(name, item) for key, item in value.items()}
     if isinstance(value, Iterable) and not isinstance(value, bytes | bytearray):

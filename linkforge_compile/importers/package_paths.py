@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 _PATH = r"(?>[\w.+/-]*\w)(?!'\w)"
 """A path in a text with other words."""
-_WHOLE_PATH = r"""(?:(?![ ][-/])[^,;:|"'<>\n$()])*[^,;:|"'<>\s$()/](?=\s*(?:\Z|["<]))|""" + _PATH
+_WHOLE_PATH = r"""(?:(?![ ][-/])[^,;:|"'<>\n$()\\])*[^,;:|"'<>\s$()/\\](?=\s*(?:\Z|["<]))|""" + _PATH
 """A path that may be a whole value, and contain blanks then."""
 
 

@@ -263,7 +263,7 @@ class _Reader:
     def _list(self, start: SequenceStartEvent, depth: int) -> YamlNode:
         flow, outer = self._open(start, depth), self._indent
         # The event begins at an anchor, and ends before the first dash, but after a dash at the column of the key.
-        if (dash := start.end_mark) and not flow and self._marks.text[dash.index] == "-":
+        if (dash := start.end_mark) and not flow and self._marks.text.startswith("-", dash.index):
             self._indent = dash.column
         items: list[YamlNode] = []
         while not isinstance(event := self._next(), SequenceEndEvent):

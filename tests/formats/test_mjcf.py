@@ -252,3 +252,18 @@ def test_keeping_a_fixed_joint_is_no_loss():
 def test_a_robot_without_links_is_a_document_without_bodies():
     text = MJCF.render(Robot("empty"), Rendering())[0].text
     assert mujoco.MjModel.from_xml_string(text).nbody == 1  # the world
+
+
+def test_a_missing_limit_is_zero_as_in_urdf():
+    text = TURNING.replace("lower: -1, ", "")
+    assert attributes(text, ".//joint")["range"] == "0 2"
+
+
+def test_a_floating_base_stays_on_the_ground_of_its_world():
+    text = """
+links:
+  world: {collision: {box: [9, 9, 1]}}
+  base: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}, collision: {box: [1, 1, 1]}}
+joints: {free: {type: floating, parent: world, child: base}}
+"""
+    assert document(text).find(".//exclude") is None

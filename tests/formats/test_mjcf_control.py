@@ -74,7 +74,7 @@ def test_a_joint_has_one_actuator():
     robot = ARM + CONTROL.replace("SHOULDER", "[effort, velocity, torque_constant]")
     assert [one[""] for one in elements(robot, "actuator/*")] == ["motor", "motor"]
     assert reported(robot) == [
-        "LF7407 joint 'shoulder' has an actuator for its first command interface, 'effort', and none for 'velocity' "
+        "LF7407 joint 'shoulder' has an actuator for its command interface 'effort' alone, and none for 'velocity' "
         "and 'torque_constant' in the MJCF"
     ]
 

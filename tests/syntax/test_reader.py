@@ -370,3 +370,12 @@ def test_a_fault_is_a_node_with_a_place():
     fault = tree.get("a")
     assert isinstance(fault, YamlFault)
     assert covered(fault.span).endswith("2]")
+
+
+def test_a_text_may_end_in_the_dash_of_a_list():
+    """The event of a list at the column of its key ends after the dash, which is the end of the text here."""
+    tree = read(SourceFile("spec.yaml", "a:\n-"), Diagnostics())
+    assert isinstance(tree, YamlMap)
+    items = tree.get("a")
+    assert isinstance(items, YamlList)
+    assert len(items) == 1

@@ -124,7 +124,7 @@ WORLD_BELOW_JOINT = Code(
 ONE_ACTUATOR = Code(
     "LF7407",
     Severity.NOTE,
-    "joint '{joint}' has an actuator for its first command interface, '{interface}', and none for {others} in the MJCF",
+    "joint '{joint}' has an actuator for its command interface '{interface}' alone, and none for {others} in the MJCF",
     subject="joint",
     grouped_by=("interface", "others"),
 )

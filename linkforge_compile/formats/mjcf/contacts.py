@@ -41,7 +41,9 @@ def _joints_of_static_bodies(
         else:
             is_static = joint.type == JointType.FIXED and joint.parent in static
             touches = link.collisions and robot.links[joint.parent].collisions
-            if touches and joint.parent in static and not is_static:
+            # A floating base is to stay on the ground.
+            is_loose = joint.type in (JointType.FLOATING, JointType.PLANAR)
+            if touches and joint.parent in static and not is_static and not is_loose:
                 yield joint.parent, link.name, joint.source
         if is_static:
             static.add(link.name)

@@ -14,9 +14,6 @@ from linkforge_compile.formats.xml_text import Xml
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-_UNBOUNDED = 1e10
-"""The end of a range that is open on one side [rad, m]: the largest number that MuJoCo accepts."""
-
 _AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
 
 
@@ -36,23 +33,22 @@ def _single(joint: Joint) -> tuple[Xml, ...]:
             name=joint.name,
             type="slide" if joint.type == JointType.PRISMATIC else None,
             axis=joint.axis,
-            range=_range(limits) if limits and has_range else None,
+            range=range_of(limits) if limits and has_range else None,
             damping=(dynamics.damping or None) if dynamics else None,
             frictionloss=(dynamics.friction or None) if dynamics else None,
         ),
     )
 
 
-def _range(limits: JointLimits) -> tuple[float, float] | None:
-    lower, upper = limits.lower, limits.upper
-    if lower is None and upper is None:
-        return None
-    return (-_UNBOUNDED if lower is None else lower, _UNBOUNDED if upper is None else upper)
+def range_of(limits: JointLimits) -> tuple[float, float]:
+    """Return the lower and upper limit; a missing one is 0, as to readers of URDF."""
+    return limits.lower or 0.0, limits.upper or 0.0
 
 
 def is_locked(limits: JointLimits) -> bool:
     """Whether a joint has one position alone, which is no range for MuJoCo."""
-    return limits.lower is not None and limits.lower == limits.upper
+    lower, upper = range_of(limits)
+    return lower == upper
 
 
 def _floating(joint: Joint) -> tuple[Xml, ...]:
@@ -107,7 +103,9 @@ def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
     mimic, limits = joint.mimic, joint.limits
     if joint.type not in (*_WITH_RANGE, JointType.CONTINUOUS):
         return ()
-    if mimic and robot.has_joint(mimic.joint):
+    leader = robot.joints[mimic.joint] if mimic and robot.has_joint(mimic.joint) else None
+    # No joint has the name of a planar or floating one. Readers of URDF drop such a mimic too (LF5502).
+    if mimic and leader and leader.type in (*_WITH_RANGE, JointType.CONTINUOUS):
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
         return (leaf_at("joint", mimic.source, joint1=joint.name, joint2=mimic.joint, polycoef=coefficients),)
     if limits and joint.type in _WITH_RANGE and is_locked(limits):
