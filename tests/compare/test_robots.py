@@ -440,7 +440,9 @@ name: arm
 links: {base: {visual: {mesh: "file:///old/arm/a.stl"}}}
 extra: ['<config file="/old/arm/c.yaml"/>']
 ros2_control:
-  hw: {type: system, hardware_plugin: p, parameters: {file: /old/arm/c.yaml, other: /old/arm2/c.yaml /x/old/arm/c}}
+  hw:
+    {type: system, hardware_plugin: p, parameters: {file: /old/arm/c.yaml, other: /old/arm2/c.yaml /x/old/arm/c},
+     gpios: {io: {command_interfaces: {out: {map: /old/arm/m.yaml}}}}}
 """
     before = with_folders(robot_of(spec), {"/old/arm": "/new/arm"})
     after = robot_of(spec.replace("/old/arm/", "/new/arm/").replace("/x/new", "/x/old"))

@@ -1,5 +1,7 @@
 """Test the types of parameters, values from text and Python, and the places of faults."""
 
+from fractions import Fraction
+
 import pytest
 
 from linkforge_compile import compile_text
@@ -72,6 +74,7 @@ def test_a_python_value_that_no_spec_can_say_is_a_type_error():
     ("declared", "given", "found"),
     [
         ("number", 10**400, "a bare number, found 'inf'"),
+        ("number", Fraction(-(10**400)), "a bare number, found '-inf'"),
         pytest.param("number", -(10**5000), "a bare number, found '-inf'", id="too long for str()"),
         ("vector", [0, 0, 10**400], "three numbers, found 'inf' for z"),
         ("vector", ".nan 0 0", "three numbers, found 'nan' for x"),

@@ -219,6 +219,7 @@ def test_a_path_is_an_expression_as_a_whole_and_a_folder_that_is_left_is_reporte
         "left_1": ("$(find pkg)", str(package)),
         "left_2": ("$(find pkg)/", f"{package}/"),
         "left_3": ("$(find pkg)/it's.yaml", f"{package}/it's.yaml"),
+        "g": (r"$(find pkg)/a\nb.yaml", r"$(path('package://pkg/a'))\nb.yaml"),
         "left_4": ("x $(find pkg)/*.yaml", f"x {package}/*.yaml"),
     }
     inside = "".join(f"<{tag}>{written}</{tag}>\n" for tag, (written, _) in texts.items())
