@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import (
@@ -14,6 +14,7 @@ from linkforge_compile.expressions import (
     Scope,
     Template,
     Value,
+    ValuePath,
     as_text,
     forgotten_expression,
     passed_on,
@@ -138,8 +139,6 @@ def describe_node(node: YamlNode) -> str:
         return f"'{node.text}'"
     return "a list" if isinstance(node, YamlList) else "a map"
 
-
-ValuePath: TypeAlias = tuple[str | int, ...]
 
 _MOST_STEPS = 10_000
 _LONGEST_TEXT = 60

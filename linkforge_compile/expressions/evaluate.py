@@ -32,6 +32,7 @@ from linkforge_compile.expressions.types import (
     Scope,
     Template,
     Value,
+    ValuePath,
     as_text,
     joined,
     kind_name,
@@ -82,11 +83,7 @@ def evaluate(
     return text
 
 
-Path: TypeAlias = tuple[str | int, ...]
-"""The keys and positions that lead to a part of a value."""
-
-
-def passed_on(template: Template, scope: Scope, path: Path) -> tuple[str, Path] | None:
+def passed_on(template: Template, scope: Scope, path: ValuePath) -> tuple[str, ValuePath] | None:
     """Return the name from whose value a template passes on the part at a path, and the part's path in that value.
 
     None for a part that the template computes.
@@ -170,7 +167,7 @@ class _Evaluation:
             scope.budget.spend(Limit.STEPS, _STEPS_OF_A_FAULT, expression.place.span)
             return FAULT
 
-    def passed_on(self, node: ast.expr, path: Path) -> tuple[str, Path] | None:
+    def passed_on(self, node: ast.expr, path: ValuePath) -> tuple[str, ValuePath] | None:
         """Return what the function `passed_on` does, for a part of the expression."""
         match node:
             case ast.Name(id=name):

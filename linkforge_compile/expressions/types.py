@@ -19,6 +19,10 @@ Value: TypeAlias = None | bool | int | float | str | Quantity | tuple["Value", .
 """The value of a parameter, variable or expression; quantities are in SI units."""
 
 
+ValuePath: TypeAlias = tuple[str | int, ...]
+"""The keys and positions that lead to a part of a value."""
+
+
 class PathText(str):
     """Text that holds a path relative to the expression's file; `from_compiled` is relative to the compiled file.
 

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from operator import attrgetter
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.exceptions import FieldPath, RobotGeneratorError
 from linkforge_compile.core.fields import field_specs, number_fields
 from linkforge_compile.core.part import Element, Inside, RawXml, attribute_pairs
 from linkforge_compile.formats.source_map import active_origins, origin_of
@@ -30,9 +30,6 @@ from linkforge_compile.formats.xml_text import (
 )
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import double_text
-
-if TYPE_CHECKING:
-    from linkforge_compile.formats.raw import Path
 
 
 class Extended(Protocol):
@@ -217,7 +214,7 @@ def raw(part: Extended) -> Xml:
     return Xml("".join(raw_elements(text, source, *path) for text, source, path in raw_texts(part, part.source)))
 
 
-def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, Path]]:
+def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, SourceRef | None, FieldPath]]:
     """Yield each text of raw XML of a part that was written at `where`, with the object and path of its place.
 
     Raw XML of a robot may come from the files of its modules: such a text has a place of its own.
@@ -298,7 +295,7 @@ def is_surely_writable(part: object) -> bool:
     return all(key[:1] != "_" and is_xml_name(key) and is_surely_writable(inner) for key, inner in part.items())
 
 
-def _elements(parameters: Mapping[str, object], source: SourceRef | None, path: tuple[str | int, ...]) -> str:
+def _elements(parameters: Mapping[str, object], source: SourceRef | None, path: FieldPath) -> str:
     elements: list[str] = []
     for tag, value in parameters.items():
         if not isinstance(value, str) and isinstance(value, Sequence):
@@ -308,7 +305,7 @@ def _elements(parameters: Mapping[str, object], source: SourceRef | None, path: 
     return "".join(elements)
 
 
-def _element(tag: str, value: object, source: SourceRef | None, path: tuple[str | int, ...]) -> str:
+def _element(tag: str, value: object, source: SourceRef | None, path: FieldPath) -> str:
     _require_name(tag)
     if isinstance(value, str) or not isinstance(value, Mapping):
         return element_text(tag, (), raw_text(_text(value)), origin_of(source, *path))

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
-from linkforge_compile.core.exceptions import RobotGeneratorError
+from linkforge_compile.core.exceptions import FieldPath, RobotGeneratorError
 from linkforge_compile.formats.source_map import active_origins, origins_of_lines
 from linkforge_compile.formats.xml_text import (
     KEEPS_SPACE,
@@ -35,9 +35,6 @@ _BLANK = re.compile(r"(?:[ \t\r\n]|&#(?:9|10|13|32|x9|x[Aa]|x[Dd]|x20);)*")
 _LONGEST_KEPT = 10_000
 """Characters of raw XML that is kept normalized."""
 
-Path: TypeAlias = tuple[str | int, ...]
-"""Keys and positions that lead from an object to what is written in it."""
-
 
 def raw_elements(text: str, source: SourceRef | None = None, *path: str | int) -> Xml:
     """Return raw XML without its layout; names, prefixes, values, texts and comments as written.
@@ -63,7 +60,7 @@ def _normalized_once(text: str) -> Xml:
     return _normalized(text, None, ())
 
 
-def _normalized(text: str, source: SourceRef | None, path: Path) -> Xml:
+def _normalized(text: str, source: SourceRef | None, path: FieldPath) -> Xml:
     root, sections = _parse(text)
     normalizer = _Normalizer(sections, origins_of_lines(text, source, path))
     return Xml("".join(normalizer.content(root, keeps_space=False)))
