@@ -93,6 +93,53 @@ def test_disabled_collisions_and_joints_at_a_static_body_are_exclusions():
     assert elements(ARM, "contact/exclude", base="free") == [], "MuJoCo excludes parents that move by itself"
 
 
+FRAMES = """
+links:
+  base: {collision: {sphere: 0.1}}
+  flange:
+  arm_frame: {inertial: *unit}
+  arm: {collision: {sphere: 0.1}}
+joints:
+  weld: {type: fixed, parent: base, child: flange}
+  turn: {type: continuous, parent: flange, child: arm_frame, axis: [0, 0, 1]}
+  hold: {type: fixed, parent: arm_frame, child: arm}
+"""
+
+
+def test_frames_between_shapes_do_not_make_them_collide():
+    assert contacts(FRAMES) == 0
+    assert [(one["body1"], one["body2"]) for one in elements(FRAMES, "contact/exclude")] == [("arm", "base")]
+    beside = FRAMES.replace("parent: base, child: flange", "parent: flange, child: base")
+    assert contacts(beside) == 0
+
+
+def test_the_world_collides_with_what_moves_in_it():
+    robot = FRAMES.replace("base", "world")
+    assert elements(robot, "contact/exclude") == [], "an exclusion would hold for the ground of a scene, too"
+    assert contacts(robot) == 1
+
+
+def test_links_without_default_collisions_touch_enabled_ones_alone():
+    robot = """
+links: {base: SHAPE, left: SHAPE, right: SHAPE}
+joints:
+  a: {type: floating, parent: base, child: left}
+  b: {type: floating, parent: base, child: right}
+semantic: {no_default_collision_links: [left]}
+""".replace("SHAPE", "{inertial: *unit, collision: {sphere: 1}}")
+    assert contacts(robot) == 1
+    enabled = robot.replace("[left]", "[left], enabled_collisions: {left: {right: }}")
+    assert contacts(enabled) == 2
+
+
+def contacts(text: str) -> int:
+    """Return how many contacts MuJoCo finds in a robot at rest."""
+    model = mjcf_model(compiled(text))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return int(data.ncon)
+
+
 def test_adjacent_links_do_not_collide():
     for base in ("fixed", "free"):
         robot = ARM.replace("base: {", "base: {inertial: *unit, ").replace("xyz: [0.5, 0, 0]", "xyz: [5, 0, 0]")
