@@ -24,8 +24,8 @@ TWO_MATERIALS = Code(
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     _W,
-    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the URDF's "
-    "folder; write 'package://NAME/PATH', or the URDF into '{back}'",
+    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the {document}'s "
+    "folder; write 'package://NAME/PATH', or the {document} into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
