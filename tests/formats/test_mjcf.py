@@ -49,6 +49,7 @@ def test_a_joint_has_its_range_damping_and_friction():
         "range": "-1 2",
         "damping": "0.5",
         "frictionloss": "0.25",
+        "actuatorfrcrange": "-5 5",
     }
 
 

@@ -50,13 +50,13 @@ def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
     [
         (
             "{position: {kp: 200, kv: 20}}",
-            {"": "position", "ctrlrange": "-1 2", "forcerange": "-5 5", "kp": "200", "kv": "20"},
+            {"": "position", "ctrlrange": "-1 2", "kp": "200", "kv": "20"},
         ),
         (
             "{position: {kp: 9, min: -0.5, max: 1}}",
-            {"": "position", "ctrlrange": "-0.5 1", "forcerange": "-5 5", "kp": "9"},
+            {"": "position", "ctrlrange": "-0.5 1", "kp": "9"},
         ),
-        ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "forcerange": "-5 5", "kv": "8"}),
+        ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "kv": "8"}),
         ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
     ],
 )

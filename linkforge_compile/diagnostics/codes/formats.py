@@ -142,6 +142,18 @@ OPPOSITE_SIGN = Code(
     "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
     subject="sensor",
 )
+TAKEN_IN_MUJOCO = Code(
+    "LF7410", _E, "MuJoCo refuses two {parts} of one name, and '{name}' is the name of {owner} as well; rename this one"
+)
+NO_VELOCITY_LIMIT = Code(
+    "LF7411", _W, "MuJoCo does not limit velocities; the limit of joint '{joint}' is left out", subject="joint"
+)
+NO_MESSAGES = Code(
+    "LF7412",
+    _W,
+    "MuJoCo measures at every step and sends no messages; rate, topic and frame of '{sensor}' are left out",
+    subject="sensor",
+)
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")

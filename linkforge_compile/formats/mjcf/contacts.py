@@ -1,14 +1,15 @@
-"""Pairs of bodies that do not collide in MJCF."""
+"""Contacts in MJCF: pairs of bodies that do not collide, and the friction of the others."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
+from linkforge_compile.formats.mjcf.actuators import number_of
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -80,3 +81,14 @@ def _nearest_shapes(robot: Robot, tree: KinematicTree, link: str) -> list[str]:
         else:
             reached += (near for near in tree.fixed_to(name) if near not in reached)
     return found
+
+
+def sliding_frictions(robot: Robot) -> Mapping[str, float]:
+    """Return the friction of links by name, of their `physics`, else of their settings for Gazebo."""
+    frictions: dict[str, float] = {}
+    for block in robot.gazebo_elements:
+        text = block.properties.get("mu1")
+        mu = number_of(text) if isinstance(text, str) else None
+        if block.reference and mu is not None:
+            frictions.setdefault(block.reference, mu)
+    return frictions | {link.name: link.physics.mu for link in robot.links if link.physics.is_written("mu")}
