@@ -171,6 +171,20 @@ def test_a_keyframe_of_a_free_base_begins_with_its_pose():
     numpy.testing.assert_array_equal(model.key("ready").qpos, [0, 0, 0, 1, 0, 0, 0, 1, 0])
 
 
+def test_a_virtual_joint_is_the_pose_of_a_free_base():
+    robot = """
+links: {base: {inertial: *unit}, arm: {inertial: *unit}}
+joints: {turn: {type: continuous, parent: base, child: arm, axis: z}}
+semantic:
+  virtual_joints: {floor: {type: floating, parent_frame: world, child_link: base}}
+  groups: {body: {joints: [floor, turn]}}
+  group_states: {body: {stand: {floor: [1, 2, 3, 1, 0, 0, 0], turn: 0.5}}}
+"""
+    key = mjcf_model(compiled(robot), base="free").key("stand")
+    numpy.testing.assert_array_equal(key.qpos, [1, 2, 3, 0, 1, 0, 0, 0.5])
+    assert mjcf_model(compiled(robot)).key("stand").qpos == [0.5]
+
+
 def test_a_joint_that_mimics_follows_in_a_keyframe():
     robot = ARM.replace("axis: [1, 0, 0]", "axis: [1, 0, 0]\n    mimic: {joint: shoulder, multiplier: 2, offset: 0.25}")
     states = "semantic: {groups: {arm: {joints: [shoulder]}}, group_states: {arm: {ready: {shoulder: 1}}}}\n"
