@@ -64,6 +64,11 @@ def test_a_loss_is_reported_at_its_place():
     assert lines[span.line - 1][span.column - 1 :].startswith("<note/>")
 
 
+def test_the_axis_of_a_fixed_joint_is_no_loss():
+    weld = "drive: {type: fixed, parent: arm, child: hand, extra: <axis xyz='0 0 1'/>}"
+    assert reported(ROBOT.replace("drive: {type: planar, parent: arm, child: hand, axis: z}", weld)) == []
+
+
 def test_namespaces_are_no_loss():
     assert reported("extra_attributes: {xmlns:xacro: http://www.ros.org/wiki/xacro}" + ROBOT) == []
 
