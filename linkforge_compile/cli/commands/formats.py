@@ -77,6 +77,8 @@ def _json_text(chosen: Sequence[Format]) -> str:
             "name": one.name,
             "suffix": one.suffix,
             "files": one.files,
+            "share_folder": one.share_folder,
+            "relative_paths": one.has_relative_paths,
             "description": one.description,
             "default": one.is_default,
             "keeps": one.keeps,
