@@ -67,6 +67,25 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
 
 
+def test_strict_fails_on_what_it_cannot_hold_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    words = ["compile", "arm.robot.yaml", "-o", "a.joints", "--strict"]
+    assert main(words) == 1
+    assert "arm.robot.yaml:7:3: error: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
+    assert not (tmp_path / "a.joints").exists()
+    Path("arm.robot.yaml").write_text(SPEC.replace("  elbow:", "  # linkforge: ignore LF7999\n  elbow:"))
+    assert main(words) == 0
+    assert (tmp_path / "a.joints").exists()
+
+
+def test_strict_leaves_warnings_about_the_robot_as_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(
+        SPEC.replace("  base:", "  base: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 5}}}")
+    )
+    assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "--strict"]) == 0
+    assert "warning: " in capsys.readouterr().err
+    assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "--werror"]) == 1
+
+
 def test_deps_depfile_and_check_know_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["deps", "arm.robot.yaml", "-o", "a.joints"]) == 0
     rule = capsys.readouterr().out

@@ -15,7 +15,7 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, progress
+from linkforge_compile.cli.reports import add_report_options, add_strict_option, progress
 from linkforge_compile.cli.specs import SpecReport, find_parts, find_specs_of, is_folder
 from linkforge_compile.cli.targets import (
     Targets,
@@ -95,6 +95,7 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
     )
     add_report_options(parser)
+    add_strict_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 Formats marked `default` are written to a folder unless others are requested with --format. What a format loses of a
-robot is reported at its place in the spec.
+robot is reported at its place in the spec; with `linkforge compile --strict`, nothing is written then.
 
 examples:
   linkforge formats             all formats
