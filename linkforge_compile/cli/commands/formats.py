@@ -41,13 +41,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _named(name: str) -> Format:
-    names = [one.name for one in formats.FORMATS]
-    if name not in names:
-        from linkforge_compile.diagnostics.suggest import did_you_mean
-
-        hint = did_you_mean(name, names) or f"; the formats are {', '.join(names)}"
-        raise UsageError(f"there is no format '{name}'{hint}")
-    return formats.format_named(name)
+    try:
+        return formats.format_named(name)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
 
 
 def _paragraph(one: Format) -> str:
