@@ -14,7 +14,8 @@ links:
   rod: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 1}}}
 joints:
   elbow: {type: revolute, parent: base, child: rod, axis: z, limits: {lower: 0, upper: 1, effort: 1, velocity: 1}}
-transmissions: {drive: {joints: {elbow: }, actuators: {motor: }}}
+transmissions:
+  drive: {type: transmission_interface/SimpleTransmission, joints: {elbow: }, actuators: {motor: }}
 semantic: {groups: {all: {links: [base]}}}
 """
 
