@@ -27,6 +27,7 @@ def hardware(name: str = "turn", command: str = "effort", state: str = "[positio
 
 CASES = {
     "calibrations": ROBOT.replace("axis: z, limits", "axis: z, calibration: {rising: 1}, limits"),
+    "limits of acceleration and jerk": ROBOT.replace("effort: 5,", "effort: 5, acceleration: 2,"),
     "limits of planar joints": ROBOT.replace("child: hand,", "child: hand, limits: {effort: 1, velocity: 1},"),
     "dynamics of planar joints": ROBOT.replace("child: hand,", "child: hand, dynamics: {damping: 1},"),
     "mimic with a joint of other than one axis": ROBOT.replace("limits: {", "mimic: {joint: drive}, limits: {"),

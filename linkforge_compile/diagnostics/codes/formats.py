@@ -155,6 +155,16 @@ NO_MESSAGES = Code(
     subject="sensor",
 )
 
+# LF76xx: control and planning
+NO_LIMIT_FOR_MOVEIT = Code(
+    "LF7601",
+    _W,
+    "MoveIt plans no motion of '{joint}' without a greatest {limit}; write `{limit}` in its `limits`",
+    subject="joint",
+    grouped_by=("limit",),
+)
+NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: none that turns or slides by itself")
+
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
 UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")
