@@ -71,6 +71,31 @@ def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, 
     assert reported(robot) == []
 
 
+def test_what_most_joints_have_is_in_their_class():
+    names = ("one", "two", "three")
+    joint = "{type: continuous, parent: base, child: NAME, axis: z, limits: {effort: 5, velocity: 3}}"
+    robot = f"""
+links: {{base: , {", ".join(f"{name}: {{inertial: *unit}}" for name in names)}}}
+joints: {{{", ".join(f"{name}_joint: {joint.replace('NAME', name)}" for name in names)}}}
+ros2_control:
+  arm:
+    hardware_plugin: mock_components/GenericSystem
+    joints:
+      one_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      two_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      three_joint: {{command_interfaces: {{position: {{kp: 300}}}}}}
+"""
+    assert elements(robot, "default/default[@class='joint']/*") == [
+        {"": "joint", "actuatorfrcrange": "-5 5"},
+        {"": "position", "kp": "200", "kv": "20"},
+    ]
+    assert [one.get("class") for one in elements(robot, "actuator/*")] == ["joint", "joint", None]
+    model = mjcf_model(compiled(robot))
+    assert model.jnt_actfrcrange.tolist() == [[-5, 5]] * 3
+    assert model.actuator_gainprm[:, 0].tolist() == [200, 200, 300]
+    assert model.actuator_biasprm[:, 2].tolist() == [-20, -20, 0]
+
+
 def test_a_joint_has_one_actuator():
     robot = ARM + CONTROL.replace("SHOULDER", "[effort, velocity, torque_constant]")
     assert [one[""] for one in elements(robot, "actuator/*")] == ["motor", "motor"]
