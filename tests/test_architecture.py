@@ -37,6 +37,7 @@ MAY_IMPORT = {
     "_build_hook": "schema formats",
     "export_spec": "source diagnostics units syntax core expand",
     "compare": "source units core formats",
+    "collisions": "source diagnostics syntax core checks roots",
     "pipeline": (
         "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
         "gc_paused compilation"
@@ -49,7 +50,7 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema expand lower core roots resources formats fresh_stack",
     "cli": (
         "banner source diagnostics limits roots paths core checks schema expand pipeline importing formats export_spec "
-        "compare editor resources file_watcher _version"
+        "compare collisions editor resources file_watcher _version"
     ),
 }
 

@@ -1,0 +1,123 @@
+"""`linkforge collisions`: the pairs of links that need no check for collisions, found by sampling."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import (
+    add_spec_and_values,
+    add_spec_options,
+    compile_spec,
+    require_one_spec,
+    split_assignments,
+)
+from linkforge_compile.cli.reports import add_report_options, print_status, report
+
+if TYPE_CHECKING:
+    from linkforge_compile.collisions.matrix import Matrix
+    from linkforge_compile.core.models.robot import Robot
+
+_EXAMPLES = """\
+The reasons are those of MoveIt's Setup Assistant: Adjacent, Default (in collision in the default pose), Always and
+Never. Pairs with other reasons, such as User, stay. A module that has pairs of its own is not sampled inside. It needs
+Pinocchio and coal: pip install 'linkforge-compile[collisions]'.
+
+examples:
+  linkforge collisions arm.robot.yaml                    print the section `disabled_collisions`
+  linkforge collisions arm.robot.yaml --samples 100000   of more samples, for pairs that seldom collide
+  linkforge collisions cell.robot.yaml --all             sample the pairs inside modules as well
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge collisions [options] SPEC [NAME:=VALUE ...]"
+    parser.epilog = _EXAMPLES
+    add_spec_and_values(parser)
+    parser.add_argument(
+        "--samples", metavar="N", type=_count, default=10_000, help="how many random positions (default: 10000)"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="the seed of the positions (default: 0)")
+    parser.add_argument(
+        "--jobs", metavar="N", type=_count, default=_processors(), help="how many processes (default: one a processor)"
+    )
+    parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
+    parser.add_argument("--json", action="store_true", help="print JSON, with the pairs that need a check")
+    add_spec_options(parser)
+    add_report_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    specs, assignments = split_assignments(arguments.words)
+    spec = require_one_spec(specs)
+    _require_libraries()
+    compilation = compile_spec(spec, assignments, arguments)
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+        return FAULTY_SPEC
+    matrix = _find_matrix(compilation.robot, arguments)
+    if matrix is None:
+        return FAULTY_SPEC
+    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.collisions.section import section_text
+
+    print_status(_summary(matrix), arguments)
+    write_to_stdout(_json_text(matrix, arguments) if arguments.json else section_text(matrix.disabled))
+    return OK
+
+
+def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
+    """Return the matrix of a robot; None if that has errors, which are printed."""
+    from linkforge_compile.cli.progress_bar import ProgressBar
+    from linkforge_compile.collisions.matrix import find_matrix
+    from linkforge_compile.collisions.sampling import Settings
+    from linkforge_compile.diagnostics import Diagnostics
+
+    sink = Diagnostics()
+    settings = Settings(arguments.samples, arguments.seed, arguments.jobs)
+    bar = ProgressBar(arguments.samples, "samples", arguments)
+    try:
+        matrix = find_matrix(robot, settings, bar.show, sink, is_all=arguments.all)
+    finally:
+        bar.close()
+    report(sink.sorted(), arguments)
+    return matrix
+
+
+def _require_libraries() -> None:
+    from importlib.util import find_spec
+
+    if missing := [name for name in ("pinocchio", "coal", "numpy") if find_spec(name) is None]:
+        what = f"needs Pinocchio and coal, and there is no Python package {' and '.join(missing)}"
+        raise UsageError(f"{what}; run: pip install 'linkforge-compile[collisions]'")
+
+
+def _summary(matrix: Matrix) -> str:
+    counts = Counter(reason or "no reason" for reason in matrix.disabled.values())
+    parts = ", ".join(f"{count} {reason}" for reason, count in sorted(counts.items()))
+    return f"{len(matrix.disabled)} pairs need no check ({parts or 'none'}), {len(matrix.checked)} do"
+
+
+def _json_text(matrix: Matrix, arguments: argparse.Namespace) -> str:
+    import json
+
+    document = {
+        "samples": arguments.samples,
+        "seed": arguments.seed,
+        "disabled": [{"link1": one, "link2": other, "reason": why} for (one, other), why in matrix.disabled.items()],
+        "checked": [{"link1": one, "link2": other} for one, other in matrix.checked],
+    }
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or not int(text):
+        raise argparse.ArgumentTypeError(f"takes a whole number above 0, found '{text}'")
+    return int(text)
+
+
+def _processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
