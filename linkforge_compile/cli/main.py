@@ -31,6 +31,7 @@ COMMANDS = {
     "collisions": "find the pairs of links that need no check for collisions, by sampling",
     "import": "convert an existing URDF to a spec",
     "schema": "print the JSON Schema of specs, for editors",
+    "formats": "list the output formats, with what each keeps and loses of a robot",
     "deps": "list the files from which a robot is compiled",
     "matcher": "print the problem matcher for GitHub Actions",
 }
