@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from linkforge_compile.collisions.meshes import find_meshes
 from linkforge_compile.collisions.modules import KnownModules, is_own
-from linkforge_compile.collisions.pairs import Reason, comparable_pairs
-from linkforge_compile.collisions.sampling import Progress, Settings, find_reasons
+from linkforge_compile.collisions.pairs import Names, Reason, comparable_pairs
+from linkforge_compile.collisions.sampling import Progress, SamplingSettings, find_reasons
 from linkforge_compile.collisions.scene import make_scene
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import CollisionPair
 from linkforge_compile.diagnostics import Diagnostics
 
-Names: TypeAlias = tuple[str, str]
-"""The links of a pair, in the order of the robot's links."""
-
 
 class Matrix(NamedTuple):
     """The pairs that the file of a robot should disable, with their reasons, and the sampled ones that need a check.
 
-    The pairs that modules declare are in neither.
+    Their links are in the order of the robot's. The pairs that modules declare are in neither.
     """
 
     disabled: Mapping[Names, str | None]
@@ -29,7 +26,7 @@ class Matrix(NamedTuple):
 
 
 def find_matrix(
-    robot: Robot, settings: Settings, progress: Progress, sink: Diagnostics, *, is_all: bool = False
+    robot: Robot, settings: SamplingSettings, progress: Progress, sink: Diagnostics, *, is_all: bool = False
 ) -> Matrix | None:
     """Sample a robot that has no errors; None if a shape is unknown, which is reported.
 
@@ -68,6 +65,16 @@ def _is_settled(pair: CollisionPair | None) -> bool:
     return pair is not None and (not is_own(pair) or pair.reason not in set(Reason))
 
 
+def own_pairs(robot: Robot) -> dict[Names, str | None]:
+    """Return the pairs that the file of a robot declares, and not its modules, with their reasons."""
+    names = _Names(robot)
+    return {
+        names.ordered(pair.link1, pair.link2): pair.reason
+        for pair in robot.semantic.disabled_collisions
+        if is_own(pair)
+    }
+
+
 class _Names:
     """The order of a robot's links."""
 
@@ -75,7 +82,11 @@ class _Names:
         self._places = {link.name: place for place, link in enumerate(robot.links)}
 
     def order(self, pair: Names) -> tuple[int, int]:
-        return self._places[pair[0]], self._places[pair[1]]
+        return self._place(pair[0]), self._place(pair[1])
 
     def ordered(self, one: str, other: str) -> Names:
-        return (one, other) if self._places[one] < self._places[other] else (other, one)
+        return (one, other) if self._place(one) < self._place(other) else (other, one)
+
+    def _place(self, link: str) -> int:
+        # The SRDF of a vendor may name links that the robot lacks.
+        return self._places.get(link, len(self._places))

@@ -6,12 +6,15 @@ from collections import defaultdict
 from collections.abc import Iterator
 from enum import StrEnum
 from itertools import combinations
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.collisions.scene import Scene
 
 Pair: TypeAlias = tuple[int, int]
 """The places of two bodies in their scene, in ascending order."""
+
+Names: TypeAlias = tuple[str, str]
+"""The links of a pair; the first one is that under which the pair is written."""
 
 
 class Reason(StrEnum):
@@ -25,14 +28,6 @@ class Reason(StrEnum):
     """They collide in nearly all samples."""
     NEVER = "Never"
     """They collide in no sample."""
-
-
-class Disabled(NamedTuple):
-    """A pair of links that needs no check, in the order of the robot's links."""
-
-    link1: str
-    link2: str
-    reason: str
 
 
 def comparable_pairs(scene: Scene) -> Iterator[Pair]:

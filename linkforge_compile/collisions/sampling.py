@@ -33,7 +33,7 @@ Progress: TypeAlias = Callable[[int], None]
 """Called with the number of samples that are done."""
 
 
-class Settings(NamedTuple):
+class SamplingSettings(NamedTuple):
     """How many positions to sample, the seed of their generator, and how many processes to use."""
 
     samples: int = 10_000
@@ -41,7 +41,9 @@ class Settings(NamedTuple):
     jobs: int = 1
 
 
-def find_reasons(scene: Scene, pairs: Collection[Pair], settings: Settings, progress: Progress) -> dict[Pair, Reason]:
+def find_reasons(
+    scene: Scene, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
+) -> dict[Pair, Reason]:
     """Return why pairs need no check; those that collide in some samples, but not in all, are not returned.
 
     As in MoveIt's Setup Assistant, the first of the reasons that holds is taken: adjacent, in collision in the
@@ -59,7 +61,7 @@ def find_reasons(scene: Scene, pairs: Collection[Pair], settings: Settings, prog
 
 
 def _sample(
-    scene: Scene, collider: Collider, pairs: Collection[Pair], settings: Settings, progress: Progress
+    scene: Scene, collider: Collider, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
 ) -> dict[Pair, Reason]:
     blocks = list(_blocks(settings.samples))
     done, counts, begin = 0, Counter[Pair](), monotonic()
@@ -122,7 +124,7 @@ def _find(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) 
 
 
 def _find_in_processes(
-    scene: Scene, pairs: Sequence[Pair], blocks: Sequence[Block], settings: Settings
+    scene: Scene, pairs: Sequence[Pair], blocks: Sequence[Block], settings: SamplingSettings
 ) -> Iterator[tuple[Block, set[Pair]]]:
     waiting = iter(blocks)
     # A new process, and not a fork: Pinocchio's threads would not be in the fork.

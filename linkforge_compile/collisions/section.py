@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import groupby
 
-from linkforge_compile.collisions.matrix import Names
+from linkforge_compile.collisions.pairs import Names
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.writer import write
@@ -15,13 +14,15 @@ _GENERATED = SourceFile("<generated>", "").whole
 
 def section_text(pairs: Mapping[Names, str | None]) -> str:
     """Return the section as lines of YAML, to be put below `semantic`."""
-    return write(_map({"disabled_collisions": pairs_node(pairs)}))
+    by_first: dict[str, dict[str, YamlNode]] = {}
+    for (first, second), reason in pairs.items():
+        by_first.setdefault(first, {})[second] = _reason(reason)
+    return write(_map({"disabled_collisions": _map({name: _map(each) for name, each in by_first.items()})}))
 
 
-def pairs_node(pairs: Mapping[Names, str | None]) -> YamlMap:
-    """Return pairs as a map of maps: first link, second link, reason."""
-    by_first = groupby(pairs.items(), key=lambda item: item[0][0])
-    return _map({first: _map({pair[1]: _reason(why) for pair, why in each}) for first, each in by_first})
+def entry_lines(pairs: Mapping[Names, str | None]) -> list[str]:
+    """Return the lines below the key of the section, without their common indentation; none for no pairs."""
+    return [line.removeprefix("  ") for line in section_text(pairs).splitlines()[1:]]
 
 
 def _map(entries: Mapping[str, YamlNode]) -> YamlMap:

@@ -20,31 +20,31 @@ def quadruped() -> Robot:
     return compile_file(ROOT / "examples" / "07_quadruped" / "quadruped.robot.yaml").result()
 
 
-def matrix_of(robot: Robot, settings: sampling.Settings) -> Matrix:
+def matrix_of(robot: Robot, settings: sampling.SamplingSettings) -> Matrix:
     matrix = find_matrix(robot, settings, lambda _: None, Diagnostics())
     assert matrix
     return matrix
 
 
 def test_more_processes_give_the_same_pairs(quadruped: Robot, monkeypatch: pytest.MonkeyPatch):
-    one = matrix_of(quadruped, sampling.Settings(samples=1230))
+    one = matrix_of(quadruped, sampling.SamplingSettings(samples=1230))
     monkeypatch.setattr(sampling, "WORTH_PROCESSES", 0.0)
-    assert matrix_of(quadruped, sampling.Settings(samples=1230, jobs=3)) == one
+    assert matrix_of(quadruped, sampling.SamplingSettings(samples=1230, jobs=3)) == one
 
 
 def test_another_seed_gives_other_samples(quadruped: Robot):
-    pairs = [matrix_of(quadruped, sampling.Settings(samples=100, seed=seed)) for seed in (0, 0, 1)]
+    pairs = [matrix_of(quadruped, sampling.SamplingSettings(samples=100, seed=seed)) for seed in (0, 0, 1)]
     assert pairs[0] == pairs[1] != pairs[2]
 
 
 def test_more_samples_only_find_more_collisions(quadruped: Robot):
-    few, many = (matrix_of(quadruped, sampling.Settings(samples=samples)) for samples in (300, 3000))
+    few, many = (matrix_of(quadruped, sampling.SamplingSettings(samples=samples)) for samples in (300, 3000))
     assert set(few.checked) < set(many.checked)
 
 
 def test_progress_counts_all_samples(quadruped: Robot):
     done: list[int] = []
-    find_matrix(quadruped, sampling.Settings(samples=430), done.append, Diagnostics())
+    find_matrix(quadruped, sampling.SamplingSettings(samples=430), done.append, Diagnostics())
     assert done == sorted(done)
     assert done[-1] == 430
 
@@ -60,7 +60,7 @@ def test_convex_hulls_change_no_pair(tmp_path: Path, monkeypatch: pytest.MonkeyP
     joints = "".join(f"  {pair[1]}: {joint.format(*pair)}\n" for pair in pairwise(names))
     (tmp_path / "hooks.robot.yaml").write_text(f"{HEAD}links:\n{links}joints:\n{joints}", "utf-8")
     robot = compile_file(tmp_path / "hooks.robot.yaml").result()
-    fast = matrix_of(robot, sampling.Settings(samples=600))
+    fast = matrix_of(robot, sampling.SamplingSettings(samples=600))
     monkeypatch.setattr(collider, "_hull", lambda mesh: mesh)
-    assert matrix_of(robot, sampling.Settings(samples=600)) == fast
+    assert matrix_of(robot, sampling.SamplingSettings(samples=600)) == fast
     assert fast.checked

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 from collections import Counter
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
@@ -13,13 +15,19 @@ from linkforge_compile.cli.options import (
     add_spec_options,
     compile_spec,
     require_one_spec,
+    settings_of,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, print_status, report
+from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 
 if TYPE_CHECKING:
     from linkforge_compile.collisions.matrix import Matrix
+    from linkforge_compile.collisions.pairs import Names
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.pipeline import Settings
+
+MAX_SHOWN = 20
+"""The most pairs that `--check` lists."""
 
 _EXAMPLES = """\
 The reasons are those of MoveIt's Setup Assistant: Adjacent, Default (in collision in the default pose), Always and
@@ -29,6 +37,8 @@ Pinocchio and coal: pip install 'linkforge-compile[collisions]'.
 examples:
   linkforge collisions arm.robot.yaml                    print the section `disabled_collisions`
   linkforge collisions arm.robot.yaml --samples 100000   of more samples, for pairs that seldom collide
+  linkforge collisions arm.robot.yaml --write            put it into arm.robot.yaml, and keep its comments
+  linkforge collisions arm.robot.yaml --check            in CI: exit code 1 if --write would change anything
   linkforge collisions cell.robot.yaml --all             sample the pairs inside modules as well
 """
 
@@ -45,7 +55,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--jobs", metavar="N", type=_count, default=_processors(), help="how many processes (default: one a processor)"
     )
     parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
-    parser.add_argument("--json", action="store_true", help="print JSON, with the pairs that need a check")
+    output = parser.add_mutually_exclusive_group()
+    output.add_argument("--write", action="store_true", help="change the section in the spec instead of printing it")
+    output.add_argument("--check", action="store_true", help="write nothing; fail if --write would change anything")
+    output.add_argument("--json", action="store_true", help="print JSON, with the pairs that need a check")
     add_spec_options(parser)
     add_report_options(parser)
 
@@ -60,23 +73,76 @@ def run(arguments: argparse.Namespace) -> int:
     matrix = _find_matrix(compilation.robot, arguments)
     if matrix is None:
         return FAULTY_SPEC
+    print_status(_summary(matrix), arguments)
+    if arguments.write or arguments.check:
+        return _write(compilation.robot, matrix, spec, settings_of(assignments, arguments), arguments)
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.collisions.section import section_text
 
-    print_status(_summary(matrix), arguments)
     write_to_stdout(_json_text(matrix, arguments) if arguments.json else section_text(matrix.disabled))
     return OK
+
+
+def _write(robot: Robot, matrix: Matrix, spec: str, settings: Settings, arguments: argparse.Namespace) -> int:
+    """Put the pairs into the file that declares them, or compare them with it; return the exit code."""
+    from linkforge_compile.cli.output import write_if_changed
+    from linkforge_compile.collisions.matrix import own_pairs
+    from linkforge_compile.collisions.rewrite import CannotRewriteError, file_to_rewrite, rewrite
+
+    declared = own_pairs(robot)
+    if declared == matrix.disabled:
+        print_status("the pairs are up to date", arguments)
+        return OK
+    if arguments.check:
+        for line in _differences(declared, matrix.disabled):
+            print_line(line)
+        print_line(f"the pairs are out of date; run 'linkforge collisions {spec} --write'")
+        return FAULTY_SPEC
+    try:
+        file = file_to_rewrite(robot)
+        text = rewrite(file, robot, matrix.disabled)
+    except CannotRewriteError as error:
+        raise UsageError(f"--write: {error}; change it by hand, to what the command prints without --write") from error
+    assert file.path
+    if file.path.read_bytes() != file.text.encode():
+        raise UsageError(f"'{file.shown}' has changed meanwhile, or is not in UTF-8")
+    if spec == file.name:
+        _require_result(text, Path(spec), settings, matrix)
+    print_status(
+        f"wrote {file.shown}" if write_if_changed(file.path, text) else f"{file.shown} is as before", arguments
+    )
+    return OK
+
+
+def _require_result(text: str, spec: Path, settings: Settings, matrix: Matrix) -> None:
+    """Refuse a text that does not declare the pairs of the matrix."""
+    from linkforge_compile.collisions.matrix import own_pairs
+    from linkforge_compile.pipeline import compile_source
+
+    robot = compile_source(text, str(spec), spec.parent, settings).robot
+    if robot is None or own_pairs(robot) != matrix.disabled:
+        raise UsageError("--write: the section cannot be changed here; paste what the command prints without --write")
+
+
+def _differences(declared: Mapping[Names, str | None], wanted: Mapping[Names, str | None]) -> Iterator[str]:
+    """Yield a line for each of the first pairs that is declared and not wanted, or wanted and not declared."""
+    gone = [("-", pair, reason) for pair, reason in declared.items() if wanted.get(pair, "") != reason]
+    new = [("+", pair, reason) for pair, reason in wanted.items() if declared.get(pair, "") != reason]
+    for sign, pair, reason in (*gone, *new)[:MAX_SHOWN]:
+        yield f"{sign} {pair[0]} {pair[1]} {reason or ''}".rstrip()
+    if (more := len(gone) + len(new) - MAX_SHOWN) > 0:
+        yield f"and {more:,} more"
 
 
 def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
     """Return the matrix of a robot; None if that has errors, which are printed."""
     from linkforge_compile.cli.progress_bar import ProgressBar
     from linkforge_compile.collisions.matrix import find_matrix
-    from linkforge_compile.collisions.sampling import Settings
+    from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.diagnostics import Diagnostics
 
     sink = Diagnostics()
-    settings = Settings(arguments.samples, arguments.seed, arguments.jobs)
+    settings = SamplingSettings(arguments.samples, arguments.seed, arguments.jobs)
     bar = ProgressBar(arguments.samples, "samples", arguments)
     try:
         matrix = find_matrix(robot, settings, bar.show, sink, is_all=arguments.all)
