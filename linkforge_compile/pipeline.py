@@ -314,7 +314,11 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder))
+            documents = (name.upper() for name in settings.formats if format_named(name).has_relative_paths)
+            document = next(documents, "URDF")
+            sink.report_all(
+                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
+            )
     return lowered.robot
 
 

@@ -31,8 +31,8 @@ class Mjcf(TemplateFormat):
         "sensors, cameras, disabled collisions and group states"
     )
     loses = (
-        "velocity limits, safety controllers, transmissions, settings and plugins of Gazebo, other sensors, textures "
-        "of single shapes and raw XML"
+        "velocity limits, messages of sensors, safety controllers, transmissions, settings and plugins of Gazebo, "
+        "other sensors, gpios, textures of single shapes and raw XML"
     )
     has_relative_paths = True
     options = (BASE,)
