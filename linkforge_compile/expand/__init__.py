@@ -6,7 +6,6 @@ What each module knows; it imports only those above it:
     loader            the files of one compile, each read once -> SpecFile
     uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes
     values            a node <-> its value in expressions; where a value was written
-    angle_tags        the tags `!degrees` and `!radians` of data files -> numbers
     evaluate          a node with expressions -> its value in one scope
     expand_tree       a tree with expressions, `for` and `when` -> one without
     arguments         what the user sets -> Arguments; the variants of a file

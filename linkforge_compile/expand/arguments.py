@@ -23,6 +23,7 @@ from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, s
 from linkforge_compile.units import Quantity
 
 if TYPE_CHECKING:
+    from linkforge_compile.expand.evaluate import Evaluator
     from linkforge_compile.expressions import Value
 
 COMMAND_LINE = "<command line>"
@@ -48,13 +49,15 @@ class CliArgument(NamedTuple):
 class Arguments:
     """Values by parameter name, each with its place.
 
-    `folder` is where relative paths among them start, None for nowhere. With `as_text` they were typed: a list or map
-    is still text, to be read once the parameter's type is known. `is_partial` if some had reported errors, so that
-    missing ones are not reported. `from_python` selects the wording of messages about missing ones.
+    `folder` is where relative paths among them start, None for nowhere. `evaluator` has the scope of the place where
+    they are written, None if they hold no expressions. With `as_text` they were typed: a list or map is still text, to
+    be read once the parameter's type is known. `is_partial` if some had reported errors, so that missing ones are not
+    reported. `from_python` selects the wording of messages about missing ones.
     """
 
     entries: Mapping[str, YamlEntry] = field(default_factory=dict)
     folder: Path | None = None
+    evaluator: Evaluator | None = None
     as_text: bool = False
     is_partial: bool = False
     from_python: bool = False

@@ -143,7 +143,7 @@ class _Expansion:
         spec, arguments = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
         if spec is None:
             return _unread(entry)
-        bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
+        bound = BoundArguments(arguments, sink, entry.use.span)
         use = _Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
@@ -184,7 +184,7 @@ class _Expansion:
         target = locate(site, self._state.loader, sink)
         if target is None:
             return None
-        return XacroUse(target.path, site.used, entry.arguments, entry.evaluator, site.packages, target.package)
+        return XacroUse(target.path, site.used, entry.arguments, site.packages, target.package)
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
         """Whether a use is neither circular nor too deep; reports why not."""
@@ -210,9 +210,9 @@ def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap 
 
 def _unread(entry: ModuleEntry) -> Instance:
     """Return the Instance of a module that cannot be read; faults in its arguments are still reported."""
-    if entry.evaluator:
+    if evaluator := entry.arguments.evaluator:
         for argument in entry.arguments.entries.values():
-            entry.evaluator.value(argument.value)
+            evaluator.value(argument.value)
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 

@@ -24,7 +24,6 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.expand.arguments import Arguments
-from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expand.xacro_answers import XacroAnswers
@@ -159,7 +158,7 @@ def _argument_text(node: YamlNode, use: XacroUse) -> str | Fault | None:
     if use.arguments.as_text and isinstance(node, YamlScalar):
         quantity = parse_quantity(node.text)
         return number_text(quantity.value) if quantity else node.text
-    value = use.evaluator.value(node) if use.evaluator else plain_value(node)
+    value = use.arguments.evaluator.value(node) if use.arguments.evaluator else plain_value(node)
     if isinstance(value, bool):
         return "true" if value else "false"
     number = value.value if isinstance(value, Quantity) else value
@@ -172,15 +171,13 @@ def _argument_text(node: YamlNode, use: XacroUse) -> str | Fault | None:
 class XacroUse:
     """What names a xacro file, its arguments, and the package folders that the using file declares.
 
-    `evaluator` computes the arguments, None if they hold no expressions. `package` is the one through whose
-    `package://` the file was reached. `used_elsewhere` are the arguments that the robot's other file uses; None if
-    that file reports the unknown ones.
+    `package` is the one through whose `package://` the file was reached. `used_elsewhere` are the arguments that the
+    robot's other file uses; None if that file reports the unknown ones.
     """
 
     path: Path
     used: ImportSite
     arguments: Arguments
-    evaluator: Evaluator | None = None
     packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
