@@ -24,10 +24,9 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.expand.instance import NameReference
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
-from linkforge_compile.expand.uses import NameReference, PathSite, from_base, locate, mesh_base, rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import (
     FAULT,
@@ -43,6 +42,8 @@ from linkforge_compile.expressions import (
     kind_name,
     parse_template,
 )
+from linkforge_compile.load.loader import Loader, SpecFile
+from linkforge_compile.load.locations import PathSite, from_base, locate, mesh_base, rebased
 from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span

@@ -20,7 +20,6 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, alternatives, listed
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
-from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
 from linkforge_compile.expand.parameters import (
     PARAMETER_TYPES,
     REFUSED_STEPS,
@@ -33,10 +32,11 @@ from linkforge_compile.expand.parameters import (
     resolve_type,
     unquoted,
 )
-from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
+from linkforge_compile.load.loader import AnnotatingSink, SpecFile
+from linkforge_compile.load.locations import rebased
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
