@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
+from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMATS",
+    "JOINT_LIMITS",
     "MJCF",
     "NO_OPTIONS",
     "SRDF",
@@ -33,14 +35,21 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF = Urdf(), Srdf(), Mjcf()
+URDF, SRDF, MJCF, JOINT_LIMITS = Urdf(), Srdf(), Mjcf(), JointLimitsYaml()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 
 def format_named(name: str) -> Format:
-    return next(one for one in FORMATS if one.name == name)
+    """Return a format by its name; ValueError for an unknown one."""
+    formats = {one.name: one for one in FORMATS}
+    if name not in formats:
+        from linkforge_compile.diagnostics.suggest import did_you_mean
+
+        hint = did_you_mean(name, formats) or f"; there are {', '.join(formats)}"
+        raise ValueError(f"there is no format '{name}'{hint}")
+    return formats[name]
 
 
 def declared_options() -> tuple[Option, ...]:
@@ -49,14 +58,17 @@ def declared_options() -> tuple[Option, ...]:
 
 
 def require_options(options: Options) -> None:
-    """Check the values of options.
+    """Check options.
 
     Raises:
-        ValueError: for a value that is not one of its option's choices.
+        ValueError: for a name that no format declares, and for a value that is not one of its option's choices.
 
     """
-    for option in declared_options():
-        option.value(options)
+    declared = {option.name: option for option in declared_options()}
+    for name in options:
+        if name not in declared:
+            raise ValueError(f"no format has an option '{name}'; there are {', '.join(declared)}")
+        declared[name].value(options)
 
 
 def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:
