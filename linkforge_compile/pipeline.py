@@ -29,7 +29,7 @@ from linkforge_compile.expand import (
     expand,
     is_xacro,
 )
-from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
+from linkforge_compile.formats import NO_OPTIONS, Options, format_named, report_limits, require_options
 from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
@@ -299,7 +299,11 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder))
+            documents = (name.upper() for name in settings.formats if format_named(name).has_relative_paths)
+            document = next(documents, "URDF")
+            sink.report_all(
+                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
+            )
     return lowered.robot
 
 

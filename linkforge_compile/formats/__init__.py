@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
+from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMATS",
+    "JOINT_LIMITS",
     "MJCF",
     "NO_OPTIONS",
     "SRDF",
@@ -33,9 +35,9 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF = Urdf(), Srdf(), Mjcf()
+URDF, SRDF, MJCF, JOINT_LIMITS = Urdf(), Srdf(), Mjcf(), JointLimitsYaml()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

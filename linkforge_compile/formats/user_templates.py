@@ -135,7 +135,7 @@ class TemplateFolder:
                 if is_xml(template):
                     texts[name] = f"{self.xml(template, context, pretty=True)}\n"
                 else:
-                    texts[name] = without_marks(self._text(template, context))
+                    texts[name] = without_marks(self.text(template, context))
             except TemplateError as error:
                 faults += error.diagnostics
                 if self._budget.is_spent:
@@ -154,7 +154,7 @@ class TemplateFolder:
         from linkforge_compile.formats.template_faults import find_xml_fault
         from linkforge_compile.formats.xml_document import parse_rendered, write
 
-        rendered = self._text(template, context).lstrip()
+        rendered = self.text(template, context).lstrip()
         if fault := find_xml_fault(rendered):
             line = self._loader.place_of_line(template, fault.line)
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
@@ -163,7 +163,13 @@ class TemplateFolder:
         except RobotGeneratorError as error:
             raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=error),)) from None
 
-    def _text(self, template: str, context: Mapping[str, object]) -> str:
+    def text(self, template: str, context: Mapping[str, object]) -> str:
+        """Render a template and return its text, not laid out.
+
+        Raises:
+            TemplateError: for what is wrong with it.
+
+        """
         try:
             return self._environment.text_of(template, context)
         # A template may raise whatever Python can: each is a fault of the template.

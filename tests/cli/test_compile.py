@@ -142,6 +142,8 @@ def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulu
     words = ("compile", "rod.robot.yaml", "-o", "build/", "--installed-in")
     assert "LF7006" not in linkforge(*words, ".", cwd=pendulum).stderr
     assert "cannot be found from 'urdf', the URDF's folder" in linkforge(*words, "urdf", cwd=pendulum).stderr
+    told = linkforge("compile", "rod.robot.yaml", "-o", "build/rod.mjcf", cwd=pendulum).stderr
+    assert "the MJCF's folder; write 'package://NAME/PATH', or the MJCF into '.'" in told
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 

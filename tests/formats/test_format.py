@@ -31,6 +31,8 @@ class Joints(Format):
     name = "joints"
     suffix = ".joints"
     description = "the names of the joints"
+    keeps = "the names of the joints"
+    loses = "all else"
     options = (Option("case", ("lower", "upper"), "lower", "the case of the names"),)
 
     def render(self, robot, rendering):
@@ -50,13 +52,13 @@ class Folder(Format):
 
     name = "folder"
     suffix = "_config"
+    files = ("config/joints.txt", "links.txt")
     description = "a folder of files"
+    keeps = "nothing"
+    loses = "everything"
 
     def render(self, robot, rendering):
-        return tuple(Document(f"{name}\n", name) for name in self.file_names(robot))
-
-    def file_names(self, robot):
-        return ("config/joints.txt", "links.txt")
+        return tuple(Document(f"{name}\n", name) for name in self.files)
 
 
 @pytest.fixture(autouse=True)
@@ -77,7 +79,7 @@ def test_the_help_describes_it(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["compile", "--help"])
     words = " ".join(capsys.readouterr().out.split())
-    assert "{urdf,srdf,mjcf,joints,folder}" in words
+    assert "{urdf,srdf,mjcf,joint_limits,joints,folder}" in words
     assert "joints: the names of the joints" in words
     assert "a file that ends in .urdf, .srdf, .mjcf, .joints or .xml" in words
     assert "--case {lower,upper}" in words
