@@ -59,6 +59,7 @@ def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
         ),
         ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "kv": "8"}),
         ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
+        ("[torque]", {"": "motor", "ctrlrange": "-5 5"}),
     ],
 )
 def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, str]):
@@ -249,8 +250,8 @@ def test_sensors_measure_at_sites():
     robot = ARM + SENSORS
     assert elements(robot, "sensor/*") == [
         {"": "gyro", "name": "imu_gyro", "site": "imu", "noise": "0.25"},
-        {"": "accelerometer", "name": "imu_accelerometer", "site": "imu"},
-        {"": "framequat", "name": "imu_orientation", "objtype": "site", "objname": "imu"},
+        {"": "accelerometer", "name": "imu_accel", "site": "imu"},
+        {"": "framequat", "name": "imu_quat", "objtype": "site", "objname": "imu"},
         {"": "force", "name": "wrench_force", "site": "wrench"},
         {"": "torque", "name": "wrench_torque", "site": "wrench"},
     ]
@@ -258,9 +259,7 @@ def test_sensors_measure_at_sites():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     numpy.testing.assert_allclose(data.site("imu").xpos, [0, 0, 0.5], atol=1e-12)
-    numpy.testing.assert_allclose(
-        data.sensor("imu_orientation").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12
-    )
+    numpy.testing.assert_allclose(data.sensor("imu_quat").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12)
 
 
 def test_a_camera_looks_where_gazebos_does():

@@ -16,12 +16,12 @@ from linkforge_compile.formats.xml_text import Xml
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-_TAGS = {"position": "position", "velocity": "velocity", "effort": "motor"}
+_TAGS = {"position": "position", "velocity": "velocity", "effort": "motor", "torque": "motor", "force": "motor"}
 INTERFACES = tuple(_TAGS)
 """The command interfaces that MuJoCo has actuators for."""
 
-GAINS: Mapping[str, Sequence[str]] = {"position": ("kp", "kv"), "velocity": ("kv",), "effort": ()}
-"""The parameters of each interface that are gains of its actuator, which needs the first."""
+GAINS: Mapping[str, Sequence[str]] = {"position": ("kp", "kv"), "velocity": ("kv",)}
+"""The parameters of interfaces that are gains of their actuators, which need the first."""
 
 Range = tuple[float, float]
 
@@ -63,7 +63,7 @@ def actuator_element(drive: Drive, joint_class: JointClass) -> Xml:
 def actuator_settings(drive: Drive) -> Settings:
     """Return the gains of the actuator of a joint."""
     interface = str(drive.interface)
-    values: Values = {name: _gain(drive, name) for name in GAINS[interface]}
+    values: Values = {name: _gain(drive, name) for name in GAINS.get(interface, ())}
     return Settings(_TAGS[interface], values, drive.interface.source or drive.hardware.source)
 
 
@@ -73,15 +73,18 @@ def _command_range(drive: Drive) -> Range | None:
     stated = _both(number_of(parameters.get("min")), number_of(parameters.get("max")))
     if stated or limits is None:
         return stated
-    if str(drive.interface) != "position":
-        return symmetric(limits.velocity if str(drive.interface) == "velocity" else limits.effort)
+    match _TAGS[str(drive.interface)]:
+        case "velocity":
+            return symmetric(limits.velocity)
+        case "motor":
+            return symmetric(limits.effort)
     has_range = drive.joint.type != JointType.CONTINUOUS and not is_locked(limits)
     return _both(limits.lower, limits.upper) if has_range else None
 
 
 def has_gain(drive: Drive) -> bool:
     """Whether an actuator that needs a gain has one; MuJoCo's default is 1, too weak for most robots."""
-    gains = GAINS[str(drive.interface)]
+    gains = GAINS.get(str(drive.interface))
     return not gains or _gain(drive, gains[0]) is not None
 
 
