@@ -152,7 +152,7 @@ def _is_document(output: str, name: str) -> bool:
     """Whether `-o` names a document's file: one with a suffix, but not of a format that the document has not."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
-    is_of_format = _format_by_suffix(output) is not None and path.suffix != Path(name).suffix
+    is_of_format = format_by_suffix(output) is not None and path.suffix != Path(name).suffix
     return not is_folder and bool(path.suffix) and not is_of_format
 
 
@@ -204,14 +204,15 @@ def _file_endings(chosen: Sequence[str] = ()) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*_suffixes(), *of_chosen, ".xml")))
 
 
-def _format_by_suffix(output: str) -> str | None:
+def format_by_suffix(output: str) -> str | None:
+    """Return the name of the format of one file whose suffix ends the name of an output, None for no such format."""
     found = [suffix for suffix in _suffixes() if output.endswith(suffix)]
     return _suffixes()[max(found, key=len)] if found else None
 
 
 def _format_of_file(output: str, chosen: str | None) -> str:
     """Return the format of a file by its suffix; a file with any other suffix may have any format."""
-    of_suffix = _format_by_suffix(output)
+    of_suffix = format_by_suffix(output)
     if chosen and of_suffix not in (None, chosen):
         raise UsageError(f"--format {chosen} does not go into '{output}'")
     return chosen or of_suffix or default_format().name
