@@ -79,6 +79,12 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: that of the spec)")
 
 
+def add_for_option(parser: argparse.ArgumentParser, about: str) -> None:
+    """Add `--for`, the formats of a command whose `--format` is the form of what it prints."""
+    names = [one.name for one in formats.FORMATS]
+    parser.add_argument("--for", choices=names, dest="formats", action="append", default=[], help=about)
+
+
 def add_output_option(parser: argparse.ArgumentParser) -> None:
     written = " and ".join(f"NAME{one.suffix}" for one in formats.FORMATS if one.is_default)
     parser.add_argument(

@@ -67,6 +67,9 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
     for arguments in (["check", "arm.robot.yaml"], ["compile", "arm.robot.yaml"]):
         assert main(arguments) == 0
         assert "LF7999" not in capsys.readouterr().err
+    assert main(["check", "arm.robot.yaml", "--for", "joints"]) == 0
+    assert "LF7999" in capsys.readouterr().err
+    assert main(["check", "arm.robot.yaml", "--for", "joints", "--strict"]) == 1
     assert main(["compile", "arm.robot.yaml", "-o", "a.joints"]) == 0
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile import formats
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import (
     add_spec_and_values,
@@ -15,7 +14,7 @@ from linkforge_compile.cli.options import (
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, report
-from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
+from linkforge_compile.cli.targets import add_for_option, add_output_option, default_format, name_of, targets_of
 
 if TYPE_CHECKING:
     import argparse
@@ -46,14 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_and_values(parser)
     add_output_option(parser)
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (default), or JSON")
-    parser.add_argument(
-        "--for",
-        choices=[one.name for one in formats.FORMATS],
-        dest="formats",
-        action="append",
-        default=[],
-        help="the rule is for the outputs of this format, once more for another one",
-    )
+    add_for_option(parser, "the rule is for the outputs of this format, once more for another one")
     add_spec_options(parser)
     add_report_options(parser)
 
