@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
 from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
+from linkforge_compile.formats.ros2_controllers import Ros2Controllers
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
 
@@ -21,6 +22,7 @@ __all__ = [
     "JOINT_LIMITS",
     "MJCF",
     "NO_OPTIONS",
+    "ROS2_CONTROLLERS",
     "SRDF",
     "URDF",
     "Document",
@@ -35,9 +37,9 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF, JOINT_LIMITS = Urdf(), Srdf(), Mjcf(), JointLimitsYaml()
+URDF, SRDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS = Urdf(), Srdf(), Mjcf(), JointLimitsYaml(), Ros2Controllers()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

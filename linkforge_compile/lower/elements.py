@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, NotRequired, TypedDict, TypeVar
+from typing import Any, NotRequired, TypeAlias, TypedDict, TypeVar
 
 from linkforge_compile.core.fields import (
     Child,
     Children,
     Choice,
+    Data,
     Flag,
     Name,
     Noise,
@@ -28,9 +29,12 @@ from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import FieldUnit, Motion
+from linkforge_compile.units import FieldUnit, Motion, Quantity
 
 P = TypeVar("P", bound=Part)
+
+
+PlainData: TypeAlias = "None | bool | int | float | str | list[PlainData] | dict[str, PlainData]"
 
 
 def lower_element(
@@ -162,6 +166,26 @@ def _parameters(
     return free_elements(fields, key) if spec.xml == "*" else free_texts(fields, key)
 
 
+def _data(_spec: Data, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Mapping[str, object]:
+    section = fields.map(key)
+    if section is None:
+        return {}
+    return {entry.name: plain_data(entry.value) for entry in section.node if not is_absent(entry.value)}
+
+
+def plain_data(node: YamlNode) -> PlainData:
+    """Return the value of a node with its type; a quantity in SI units, None for a faulty value."""
+    match node:
+        case YamlScalar(value=value):
+            return value.value if isinstance(value, Quantity) else value
+        case YamlList():
+            return [plain_data(item) for item in node]
+        case YamlMap():
+            return {entry.name: plain_data(entry.value) for entry in node if not is_absent(entry.value)}
+        case YamlFault():
+            return None
+
+
 def _or_implied(spec: Spec, value: object) -> object:
     return spec.implied if value is None else value
 
@@ -179,6 +203,7 @@ _READ: Mapping[type[Spec], Callable[[Any, str, Fields, Motion, FieldUnit | None]
     Noise: _noise,
     Children: _children,
     Parameters: _parameters,
+    Data: _data,
 }
 """How a field of each kind is read: its spec, its key, the object, and the motion and unit of `lower_element`."""
 

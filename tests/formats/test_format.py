@@ -79,7 +79,7 @@ def test_the_help_describes_it(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["compile", "--help"])
     words = " ".join(capsys.readouterr().out.split())
-    assert "{urdf,srdf,mjcf,joint_limits,joints,folder}" in words
+    assert "{urdf,srdf,mjcf,joint_limits,ros2_controllers,joints,folder}" in words
     assert "joints: the names of the joints" in words
     assert "a file that ends in .urdf, .srdf, .mjcf, .joints or .xml" in words
     assert "--case {lower,upper}" in words
