@@ -29,7 +29,7 @@ from linkforge_compile.expand import (
     expand,
     is_xacro,
 )
-from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
+from linkforge_compile.formats import NO_OPTIONS, Options, format_named, report_limits, require_options
 from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
@@ -72,6 +72,8 @@ def compile_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     output: str | Path | None = None,
     allow_outside: bool = False,
 ) -> Compilation:
@@ -79,17 +81,19 @@ def compile_file(
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults, or several
     of them, `a+b`, of which the last one decides. `gazebo` is the simulator, Gazebo Sim or Classic, whose limits are
-    reported; give it to `render_urdf` as well. `output` is the folder of the URDF, from which relative paths of meshes
-    must lead to a file; None if it is not known.
+    reported; give it to `render_urdf` as well. `formats` are those whose limits are reported in addition to URDF and
+    SRDF, and `options` are theirs, such as `{"base": "free"}`; give these to `render` as well. `output` is the folder
+    of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
     Raises:
-        ValueError: for another `gazebo` than `gz` or `classic`.
+        ValueError: for an unknown format or option, and another `gazebo` than `gz` or `classic`.
 
     """
     folder = Path(output) if output is not None else None
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, output=folder, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folder, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -102,10 +106,13 @@ def compile_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Compile a spec given as text; `name` is its name in diagnostics, `folder` is where relative paths start."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, None, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -116,10 +123,13 @@ def check_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Report what is wrong with a spec file; what depends on a required parameter without a value is not checked."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -132,10 +142,13 @@ def check_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Report what is wrong with a spec given as text, as `check_file` does."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -255,6 +268,8 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 @suggestion_budget()
 def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_options(settings.options)
+    for name in settings.formats:
+        format_named(name)
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
@@ -299,7 +314,11 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder))
+            documents = (name.upper() for name in settings.formats if format_named(name).has_relative_paths)
+            document = next(documents, "URDF")
+            sink.report_all(
+                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
+            )
     return lowered.robot
 
 

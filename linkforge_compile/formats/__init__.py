@@ -44,7 +44,14 @@ FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS)
 
 
 def format_named(name: str) -> Format:
-    return next(one for one in FORMATS if one.name == name)
+    """Return a format by its name; ValueError for an unknown one."""
+    formats = {one.name: one for one in FORMATS}
+    if name not in formats:
+        from linkforge_compile.diagnostics.suggest import did_you_mean
+
+        hint = did_you_mean(name, formats) or f"; there are {', '.join(formats)}"
+        raise ValueError(f"there is no format '{name}'{hint}")
+    return formats[name]
 
 
 def declared_options() -> tuple[Option, ...]:
@@ -53,14 +60,17 @@ def declared_options() -> tuple[Option, ...]:
 
 
 def require_options(options: Options) -> None:
-    """Check the values of options.
+    """Check options.
 
     Raises:
-        ValueError: for a value that is not one of its option's choices.
+        ValueError: for a name that no format declares, and for a value that is not one of its option's choices.
 
     """
-    for option in declared_options():
-        option.value(options)
+    declared = {option.name: option for option in declared_options()}
+    for name in options:
+        if name not in declared:
+            raise ValueError(f"no format has an option '{name}'; there are {', '.join(declared)}")
+        declared[name].value(options)
 
 
 def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:

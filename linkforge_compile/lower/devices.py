@@ -24,16 +24,9 @@ from linkforge_compile.core.models.transmission import Transmission, Transmissio
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lower.elements import (
-    EXTRA_KEYS,
-    extras_of,
-    free_elements,
-    is_absent,
-    lower_element,
-    lower_fields,
-    texts_in,
-)
+from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_element, lower_fields
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_in
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
 from linkforge_compile.source import SourceRef

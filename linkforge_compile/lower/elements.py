@@ -21,20 +21,20 @@ from linkforge_compile.core.fields import (
     Text,
     Vector,
     field_specs,
+    key_fields,
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
-from linkforge_compile.core.part import Element, FreePart, Inside, Part, RawXml
-from linkforge_compile.diagnostics.codes.model import ATTRIBUTE_OF_OWNER, LIST_IN_LIST
+from linkforge_compile.core.part import Element, Inside, Part, RawXml
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import free_elements, free_texts, is_absent, texts_in, typed_data
 from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.units import FieldUnit, Motion, Quantity
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar
+from linkforge_compile.units import FieldUnit, Motion
 
 P = TypeVar("P", bound=Part)
-
-
-PlainData: TypeAlias = "None | bool | int | float | str | list[PlainData] | dict[str, PlainData]"
+E = TypeVar("E", bound=Element)
 
 
 def lower_element(
@@ -77,9 +77,60 @@ def lower_fields(
     return values
 
 
-def lower_each(kind: type[P], fields: Fields, key: str, noun: str) -> dict[str, P | None]:
-    """Read the elements in a map by their names, None for a faulty one; messages call them by `noun` and name."""
-    return dict(fields.each(key, noun, lambda each, name: lower_element(kind, each, name=name)))
+Lower: TypeAlias = Callable[..., E | None]
+"""A function that reads an element of a class from an object, given the names that are keys around it, by field."""
+
+
+def lower_children(kind: type[E], fields: Fields, key: str, lower: Lower[E] = lower_element) -> Iterator[E]:
+    """Yield the elements under a key, without the faulty ones.
+
+    They are in a map by name, in a map of maps by two names, in a list, or in a list of their names only.
+    """
+    names, node = key_fields(kind), fields.get(key)
+    if len(names) == 2:
+        for outer, entry in fields.nested(key):
+            yield from _lower_entry(kind, fields, entry, lower, **dict(zip(names, (outer, entry.key), strict=True)))
+    elif kind.SHORT_FORM:
+        section = fields.map(key)
+        for entry in section.node if section else ():
+            yield from _lower_entry(kind, fields, entry, lower, **{names[0]: entry.key})
+    elif isinstance(node, YamlMap):
+        noun = kind.TAG.replace("_", " ")
+        named = fields.each(key, noun, lambda each, name: lower(kind, each, **{names[0]: name}))
+        yield from (child for _, child in named if child)
+    else:
+        yield from _lower_items(kind, fields, key, lower)
+
+
+def _lower_entry(kind: type[E], fields: Fields, entry: YamlEntry, lower: Lower[E], **names: YamlScalar) -> Iterator[E]:
+    """Read an element that may be in its short form; the `names` around it become fields of the object."""
+    texts = {name: node.text for name, node in names.items()}
+    owner, short = kind.TITLE.format(**texts), kind.SHORT_FORM
+    if isinstance(entry.value, YamlMap):
+        item = fields.arranged(owner, entry.key, *entry.value, **names)
+    elif is_absent(entry.value) and field_specs(kind)[short].example:
+        return
+    else:
+        item = fields.arranged(owner, entry.key, **names, **{short: entry.value})
+    if child := lower(kind, item, **texts):
+        yield child
+
+
+def _lower_items(kind: type[E], fields: Fields, key: str, lower: Lower[E]) -> Iterator[E]:
+    """Read elements from a list; an item that is no map is the name of one."""
+    names, first = key_fields(kind), dict[str, SourceRef]()
+    for node in fields.items(key):
+        if isinstance(node, YamlMap) or not names:
+            item = fields.map_at(node, key)
+            if item and (child := lower(kind, item)):
+                yield child
+            continue
+        item, name = fields.arranged(key, node, **{names[0]: node}), fields.text_at(node, key)
+        if name is not None and name in first:
+            report_duplicate(fields.sink, kind.TAG.replace("_", " "), name, item.ref, first[name])
+        elif name is not None and (child := lower(kind, item, **{names[0]: name})):
+            first[name] = item.ref
+            yield child
 
 
 def lower_pose(fields: Fields, key: str = "origin") -> Transform:
@@ -150,40 +201,14 @@ def _noise(spec: Noise, key: str, fields: Fields, _motion: Motion, _unit: FieldU
     return lower_element(kind, noise, **values)
 
 
-def _children(spec: Children, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Part]:
-    kind: type[Element] = spec.kinds[0]
-    if isinstance(fields.get(key), YamlMap):
-        children = [*lower_each(kind, fields, key, kind.TAG).values()]
-    else:
-        items = [fields.map_at(node, key) for node in fields.items(key)]
-        children = [lower_element(kind, item) for item in items if item]
-    return [child for child in children if child]
+def _children(spec: Children, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Element]:
+    return list(lower_children(spec.kinds[0], fields, key))
 
 
 def _parameters(
     spec: Parameters, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None
 ) -> Mapping[str, object]:
     return free_elements(fields, key) if spec.xml == "*" else free_texts(fields, key)
-
-
-def _data(_spec: Data, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> Mapping[str, object]:
-    section = fields.map(key)
-    if section is None:
-        return {}
-    return {entry.name: plain_data(entry.value) for entry in section.node if not is_absent(entry.value)}
-
-
-def plain_data(node: YamlNode) -> PlainData:
-    """Return the value of a node with its type; a quantity in SI units, None for a faulty value."""
-    match node:
-        case YamlScalar(value=value):
-            return value.value if isinstance(value, Quantity) else value
-        case YamlList():
-            return [plain_data(item) for item in node]
-        case YamlMap():
-            return {entry.name: plain_data(entry.value) for entry in node if not is_absent(entry.value)}
-        case YamlFault():
-            return None
 
 
 def _or_implied(spec: Spec, value: object) -> object:
@@ -203,7 +228,7 @@ _READ: Mapping[type[Spec], Callable[[Any, str, Fields, Motion, FieldUnit | None]
     Noise: _noise,
     Children: _children,
     Parameters: _parameters,
-    Data: _data,
+    Data: lambda _spec, key, fields, _motion, _unit: typed_data(fields, key),
 }
 """How a field of each kind is read: its spec, its key, the object, and the motion and unit of `lower_element`."""
 
@@ -254,68 +279,3 @@ def _insides(fields: Fields) -> Iterator[Inside]:
         tag, _, name = key.partition(" ")
         if inside:
             yield Inside(tag, name.strip() or None, **extras_of(inside)).with_source(inside.ref)
-
-
-def free_elements(fields: Fields, key: str) -> dict[str, FreePart]:
-    """Read the child elements under a key by their tags: a text, a map of children, or a list for a tag that repeats.
-
-    In a map a key `_x` is the attribute `x`, `_text` the text; those of the owner itself are its `extra_attributes`.
-    """
-    section = fields.map(key)
-    if section is None:
-        return {}
-    for entry in section.node:
-        if entry.name.startswith("_"):
-            section.report(ATTRIBUTE_OF_OWNER, entry.key, name=entry.name, owner=fields.title)
-    return {tag: part for tag, part in _free_children(section) if not tag.startswith("_")}
-
-
-def free_texts(fields: Fields, key: str) -> dict[str, str]:
-    """Read the texts under a key by their names, for parameters without structure."""
-    section = fields.map(key)
-    return texts_in(section) if section else {}
-
-
-def texts_in(section: Fields, *other_keys: str) -> dict[str, str]:
-    """Read all fields of an object as texts, except `other_keys`."""
-    entries = [entry for entry in section.node if entry.name not in other_keys and not is_absent(entry.value)]
-    texts = {entry.name: section.text_at(entry.value, entry.name) for entry in entries}
-    return {name: text for name, text in texts.items() if text is not None}
-
-
-def is_absent(node: YamlNode) -> bool:
-    """Whether a key has no value at all; in a free part, a written null is a text."""
-    return isinstance(node, YamlScalar) and node.value is None and not node.text
-
-
-def _free_children(element: Fields) -> Iterator[tuple[str, FreePart]]:
-    for entry in element.node:
-        if is_absent(entry.value):
-            continue
-        is_attribute = entry.name.startswith("_")
-        part = (
-            element.text_at(entry.value, entry.name) if is_attribute else _free_part(element, entry.value, entry.name)
-        )
-        if part is not None:
-            yield entry.name, part
-
-
-def _free_part(parent: Fields, node: YamlNode, tag: str) -> FreePart | None:
-    if isinstance(node, YamlList):
-        parts = [_free_item(parent, item, tag) for item in node if not is_absent(item)]
-        return tuple(part for part in parts if part is not None)
-    return _free_item(parent, node, tag)
-
-
-def _free_item(parent: Fields, node: YamlNode, tag: str) -> FreePart | None:
-    match node:
-        case YamlScalar():
-            return node.text
-        case YamlMap():
-            element = parent.map_at(node, tag)
-            return dict(_free_children(element)) if element else None
-        case YamlList():
-            parent.report(LIST_IN_LIST, node, field=tag)
-        case YamlFault():
-            pass
-    return None

@@ -13,8 +13,9 @@ from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.lower.elements import PlainData, lower_pose, outer_extras_of
+from linkforge_compile.lower.elements import lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import PlainData
 from linkforge_compile.lower.joint import JointEnds, joint_between, lower_joints
 from linkforge_compile.lower.link import lower_links
 from linkforge_compile.lower.mesh_solids import MeshReader

@@ -24,8 +24,8 @@ TWO_MATERIALS = Code(
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     _W,
-    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the URDF's "
-    "folder; write 'package://NAME/PATH', or the URDF into '{back}'",
+    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the {document}'s "
+    "folder; write 'package://NAME/PATH', or the {document} into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
@@ -140,6 +140,18 @@ OPPOSITE_SIGN = Code(
     "LF7409",
     Severity.NOTE,
     "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
+    subject="sensor",
+)
+TAKEN_IN_MUJOCO = Code(
+    "LF7410", _E, "MuJoCo refuses two {parts} of one name, and '{name}' is the name of {owner} as well; rename this one"
+)
+NO_VELOCITY_LIMIT = Code(
+    "LF7411", _W, "MuJoCo does not limit velocities; the limit of joint '{joint}' is left out", subject="joint"
+)
+NO_MESSAGES = Code(
+    "LF7412",
+    _W,
+    "MuJoCo measures at every step and sends no messages; rate, topic and frame of '{sensor}' are left out",
     subject="sensor",
 )
 
