@@ -69,6 +69,8 @@ WITHOUT_A_CASE = {
     "LF7605": "formats/test_ros2_controllers.py",
     "LF7606": "formats/test_ros2_controllers.py",
     "LF7607": "formats/test_ros2_controllers.py",
+    "LF7608": "formats/test_moveit.py",
+    "LF7609": "formats/test_moveit.py",
     "LF8003": "importers/test_xml.py",
     "LF8004": "importers/test_xml.py",
     "LF8098": "importers/test_xml.py",

@@ -79,6 +79,7 @@ def _group(builder: SpecBuilder, group: PlanningGroup) -> YamlMap:
         links=builder.texts(group.links),
         joints=builder.texts(group.joints),
         subgroups=builder.texts(group.subgroups),
+        kinematics=builder.data(group.kinematics) if group.kinematics else None,
     )
 
 

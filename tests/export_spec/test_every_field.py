@@ -249,7 +249,12 @@ def _semantic() -> core.SemanticRobotDescription:
         said,
         virtual_joints=[replace(joint, **EXTRAS) for joint in said.virtual_joints],
         groups=[
-            PlanningGroup("arm", ["arm"], ["slide"], [chain, chain], ["hand"], **raw("joint slide", "group hand")),
+            PlanningGroup(
+                "arm",
+                *(["arm"], ["slide"], [chain, chain], ["hand"]),
+                kinematics={"kinematics_solver_timeout": 1.0},
+                **raw("joint slide", "group hand"),
+            ),
             *said.groups[1:],
         ],
         end_effectors=[EndEffector("tool", "hand", "arm", "arm", **EXTRAS)],

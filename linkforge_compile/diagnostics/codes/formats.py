@@ -182,6 +182,13 @@ NOT_OF_HARDWARE = Code(
     grouped_by=("controller",),
 )
 NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
+NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
+NOTHING_EXECUTES = Code(
+    "LF7609",
+    _W,
+    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
+    subject="group",
+)
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
