@@ -71,6 +71,8 @@ WITHOUT_A_CASE = {
     "LF7607": "formats/test_ros2_controllers.py",
     "LF7608": "formats/test_moveit.py",
     "LF7609": "formats/test_moveit.py",
+    "LF7701": "collisions/test_command.py",
+    "LF7702": "collisions/test_command.py",
     "LF8003": "importers/test_xml.py",
     "LF8004": "importers/test_xml.py",
     "LF8098": "importers/test_xml.py",
