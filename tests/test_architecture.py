@@ -39,6 +39,7 @@ MAY_IMPORT = {
     "_build_hook": "schema formats",
     "export_spec": "source diagnostics units syntax core expand",
     "compare": "source units core formats",
+    "collisions": "source diagnostics syntax core checks roots",
     "pipeline": (
         "source diagnostics limits units syntax schema importers load expand listing lower checks formats core roots "
         "fresh_stack gc_paused compilation"
@@ -51,7 +52,7 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "cli": (
         "banner source diagnostics limits roots paths core checks schema load expand listing pipeline importing "
-        "formats export_spec compare editor resources file_watcher _version"
+        "formats export_spec compare collisions editor resources file_watcher _version"
     ),
 }
 

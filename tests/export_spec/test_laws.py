@@ -95,7 +95,7 @@ def is_sayable(robot: Robot) -> bool:
 
 
 # A robot is a large thing to draw and to compile: the time goes into its hundreds of parts, not into those refused.
-few = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+few = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 robots = strategies.robots().map(sayable).filter(has_tags).filter(is_sayable)
 
