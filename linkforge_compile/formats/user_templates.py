@@ -120,7 +120,6 @@ class TemplateFolder:
         """Render all documents and return their texts by name; XML is laid out as URDF is.
 
         Raises:
-            RobotGeneratorError: for a robot whose text XML cannot hold.
             TemplateError: with all that is wrong, one fault a document.
 
         """
