@@ -1,7 +1,7 @@
 """Joints: how one link may move relative to another, its limits and its friction."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated, ClassVar
@@ -67,6 +67,13 @@ _MOVE_ALONG_AN_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISM
 HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
 HAVE_NO_LIMITS = (JointType.FIXED,)
 NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
+
+AXES: Mapping[str, Vector3] = {
+    sign + name: Vector3(*(length if name == axis else 0.0 for axis in "xyz"))
+    for sign, length in (("", 1.0), ("-", -1.0))
+    for name in "xyz"
+}
+"""The axes that the language has words for."""
 
 
 @extras_last
