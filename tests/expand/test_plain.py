@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.expand import Arguments, Loader, SpecFile, Unset, is_plain, plain_instance
+from linkforge_compile.expand import Arguments, Unset, is_plain, plain_instance
 from linkforge_compile.expand.expand_uses import expand_uses
 from linkforge_compile.limits import Limit
+from linkforge_compile.load import Loader, SpecFile
 from linkforge_compile.source import Span
 
 ROOT = Path(__file__).parents[2]

@@ -5,6 +5,7 @@ import math
 import numpy
 import pytest
 
+from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import compiled, document, reported
 
@@ -183,6 +184,22 @@ semantic:
     key = mjcf_model(compiled(robot), base="free").key("stand")
     numpy.testing.assert_array_equal(key.qpos, [1, 2, 3, 0, 1, 0, 0, 0.5])
     assert mjcf_model(compiled(robot)).key("stand").qpos == [0.5]
+
+
+def test_a_joint_that_a_state_leaves_out_is_in_its_range():
+    robot = ARM.replace("lower: 0, upper: 0.5", "lower: 0.25, upper: 0.75") + STATES
+    model = mjcf_model(compiled(robot))
+    numpy.testing.assert_array_equal(model.key("ready").qpos, [1, 0.5])
+
+
+def test_stiff_drives_choose_an_implicit_integrator_which_a_scene_replaces():
+    implicit, explicit = mujoco.mjtIntegrator.mjINT_IMPLICITFAST, mujoco.mjtIntegrator.mjINT_EULER
+    driven = compiled(ARM + CONTROL.replace("SHOULDER", "{position: {kp: 200, kv: 20}}"))
+    assert mjcf_model(compiled(ARM)).opt.integrator == explicit
+    assert mjcf_model(driven).opt.integrator == implicit
+    robot = {"robot.mjcf": MJCF.render(driven, Rendering())[0].text.encode()}
+    scene = '<mujoco><include file="robot.mjcf"/><option integrator="Euler"/></mujoco>'
+    assert mujoco.MjModel.from_xml_string(scene, assets=robot).opt.integrator == explicit
 
 
 def test_a_joint_that_mimics_follows_in_a_keyframe():

@@ -14,7 +14,7 @@ from linkforge_compile.core import models
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.part import Part
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.uses import Instance
+from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import lower
 from linkforge_compile.resources import schemas_folder
 from linkforge_compile.source import SourceFile, SourceRef

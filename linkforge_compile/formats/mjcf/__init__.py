@@ -24,6 +24,7 @@ class Mjcf(TemplateFormat):
 
     name = "mjcf"
     suffix = ".mjcf"
+    share_folder = "mjcf"
     description = "the robot for MuJoCo"
     keeps = (
         "links, joints, inertias, shapes, meshes, mimic joints, command interfaces as actuators, IMUs, force-torque "
