@@ -10,6 +10,7 @@ from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Code, Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import MESH_BESIDE_THE_SPEC
+from linkforge_compile.formats.mesh_paths import is_relative
 
 _SHOWN = 3
 
@@ -46,9 +47,8 @@ def _relative_meshes(robot: Robot) -> dict[str, Mesh]:
     geometries = [visual.geometry for link in links for visual in link.visuals]
     geometries += [collision.geometry for link in links for collision in link.collisions]
     meshes = (geometry for geometry in geometries if isinstance(geometry, Mesh))
-    relative = (mesh for mesh in meshes if "://" not in mesh.resource and not Path(mesh.resource).is_absolute())
     first: dict[str, Mesh] = {}
-    for mesh in relative:
+    for mesh in filter(is_relative, meshes):
         first.setdefault(mesh.resource, mesh)
     return first
 

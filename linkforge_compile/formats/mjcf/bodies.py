@@ -10,10 +10,11 @@ from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geome
 from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, Visual
 from linkforge_compile.core.physics import rotated
 from linkforge_compile.formats.element import attributes_at, leaf_at
+from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree, Node
 from linkforge_compile.formats.mjcf.joints import joint_elements
+from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.poses import NO_OFFSET, NO_TURN, pose
 from linkforge_compile.formats.mjcf.sensors import elements_in_body
-from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree, Node, accepted_inertia, massless_movers
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml
 
@@ -27,7 +28,7 @@ MeshNames: TypeAlias = Mapping[Mesh, str]
 """The names of the meshes that MuJoCo can read."""
 
 
-def body_views(robot: Robot, tree: BodyTree, meshes: MeshNames, *, is_free: bool) -> Iterator[View]:
+def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free: bool) -> Iterator[View]:
     """Yield the bodies in the order of the tree, each with its own parts and the number of bodies that end with it."""
     massless = {link.name for link in massless_movers(robot, tree, is_free=is_free)}
     nodes = [node for node in tree.nodes if node.link.name != WORLD]

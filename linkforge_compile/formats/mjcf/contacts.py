@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.formats.element import leaf_at
-from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree
+from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from linkforge_compile.source import SourceRef
 
 
-def exclusion_elements(robot: Robot, tree: BodyTree, *, is_free: bool) -> Sequence[Xml]:
+def exclusion_elements(robot: Robot, tree: KinematicTree, *, is_free: bool) -> Sequence[Xml]:
     """Return the pairs of `disabled_collisions`, and those of joints that MuJoCo does not exclude by itself.
 
     It lets no body collide with its parent, unless that is fixed to the world.
@@ -31,7 +31,7 @@ def exclusion_elements(robot: Robot, tree: BodyTree, *, is_free: bool) -> Sequen
 
 
 def _joints_of_static_bodies(
-    robot: Robot, tree: BodyTree, *, is_free: bool
+    robot: Robot, tree: KinematicTree, *, is_free: bool
 ) -> Iterator[tuple[str, str, SourceRef | None]]:
     """Yield the links and source of each joint that moves a link with collisions against one that never moves."""
     static: set[str] = set()

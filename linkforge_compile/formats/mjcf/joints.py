@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.geometry import IDENTITY, Vector3
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
 from linkforge_compile.formats.element import leaf_at
-from linkforge_compile.formats.mjcf.tree import WORLD
+from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.formats.element import leaf_at
+from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import Drive, drives
 from linkforge_compile.formats.mjcf.joints import is_locked
-from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _AT_REST: Mapping[str, Sequence[float]] = {
 """The positions of joints at rest where they are not one 0; a quaternion begins with w."""
 
 
-def key_elements(robot: Robot, tree: BodyTree, *, is_free: bool) -> Iterator[Xml]:
+def key_elements(robot: Robot, tree: KinematicTree, *, is_free: bool) -> Iterator[Xml]:
     """Yield the states of all groups; joints that a state does not mention are at 0.
 
     Position actuators hold the state. States of one name in several groups have the name of their group before it.
@@ -44,17 +44,17 @@ def key_elements(robot: Robot, tree: BodyTree, *, is_free: bool) -> Iterator[Xml
         yield leaf_at("key", state.source, name=name, qpos=qpos, ctrl=ctrl or None)
 
 
-def _has_free_root(tree: BodyTree) -> bool:
+def _has_free_root(tree: KinematicTree) -> bool:
     return bool(tree.nodes) and tree.nodes[0].link.name != WORLD
 
 
-def _in_order(tree: BodyTree, positions: Mapping[str, Sequence[float]]) -> Iterator[float]:
+def _in_order(tree: KinematicTree, positions: Mapping[str, Sequence[float]]) -> Iterator[float]:
     for node in tree.nodes:
         if node.joint:
             yield from positions[node.joint.name]
 
 
-def _positions(robot: Robot, tree: BodyTree, stated: Mapping[str, Sequence[object]]) -> dict[str, Sequence[float]]:
+def _positions(robot: Robot, tree: KinematicTree, stated: Mapping[str, Sequence[object]]) -> dict[str, Sequence[float]]:
     """Return the positions of each joint of the tree; those of joints that mimic others follow."""
     joints = [node.joint for node in tree.nodes if node.joint]
     positions = {joint.name: _of_state(joint, stated) for joint in joints}

@@ -18,10 +18,11 @@ from linkforge_compile.diagnostics.codes.formats import (
     OPPOSITE_SIGN,
     WORLD_BELOW_JOINT,
 )
+from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
+from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
-from linkforge_compile.formats.mjcf.tree import WORLD, BodyTree, accepted_inertia, massless_movers
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ MAX_DEPTH = 490
 
 def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     """Yield what is left out or changed in the MJCF of a robot, and what MuJoCo refuses."""
-    tree = BodyTree.of(robot)
+    tree = KinematicTree.of(robot)
     if (depth := tree.depth()) > MAX_DEPTH:
         yield NESTED_TOO_DEEP.at(robot.source, "name", depth=depth, most=MAX_DEPTH)
     for node in tree.nodes:

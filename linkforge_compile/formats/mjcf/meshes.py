@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.formats.element import leaf_at
+from linkforge_compile.formats.mesh_paths import is_relative, mesh_paths
+from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -43,19 +45,8 @@ class MeshAssets(NamedTuple):
 
 def mesh_files(robot: Robot) -> Iterator[MeshFile]:
     """Yield each mesh of a robot once."""
-    spec = robot.source.span.file.path if robot.source else None
-    folder = spec.parent if spec else None
-    for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
-        if isinstance(mesh, Mesh):
-            path = _resolved(robot, mesh.resource, folder)
-            yield MeshFile(mesh, path, _fault(mesh, path))
-
-
-def _resolved(robot: Robot, resource: str, folder: Path | None) -> Path | None:
-    try:
-        return Path(os.path.normpath(robot.resource_resolver.resolve(resource, relative_to=folder)))
-    except (OSError, ValueError):  # ValueError: a name that no file can have
-        return None
+    for mesh, path in mesh_paths(robot):
+        yield MeshFile(mesh, path, _fault(mesh, path))
 
 
 def _fault(mesh: Mesh, path: Path | None) -> str | None:
@@ -74,28 +65,16 @@ def _fault(mesh: Mesh, path: Path | None) -> str | None:
 def mesh_assets(robot: Robot) -> MeshAssets:
     """Return the meshes that MuJoCo can read, each with a name of its own."""
     found = [(one.mesh, one.path) for one in mesh_files(robot) if one.path and not one.fault]
-    if all(_is_relative(mesh.resource) for mesh, _ in found):
+    if all(is_relative(mesh) for mesh, _ in found):
         folder, files = None, [mesh.resource for mesh, _ in found]
     else:
         folder = os.path.commonpath([path.parent for _, path in found])
         files = [path.relative_to(folder).as_posix() for _, path in found]
     names: dict[Mesh, str] = {}
     for mesh, _ in found:
-        names[mesh] = _new_name(Path(mesh.resource).stem, set(names.values()))
+        names[mesh] = unique_name(Path(mesh.resource).stem, set(names.values()))
     elements = [
         leaf_at("mesh", mesh.source, name=names[mesh], file=file, scale=mesh.scale if mesh.is_scale_written else None)
         for (mesh, _), file in zip(found, files, strict=True)
     ]
     return MeshAssets(elements, names, Path(folder).as_posix() if folder else None)
-
-
-def _is_relative(resource: str) -> bool:
-    return "://" not in resource and not Path(resource).is_absolute()
-
-
-def _new_name(stem: str, taken: set[str]) -> str:
-    name, number = stem, 1
-    while name in taken:
-        number += 1
-        name = f"{stem}_{number}"
-    return name

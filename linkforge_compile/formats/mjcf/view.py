@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.kinematic_tree import KinematicTree
 from linkforge_compile.formats.mjcf.actuators import actuator_element, drives
 from linkforge_compile.formats.mjcf.bodies import body_views, world_elements
 from linkforge_compile.formats.mjcf.contacts import exclusion_elements
@@ -12,7 +13,6 @@ from linkforge_compile.formats.mjcf.joints import equality_elements
 from linkforge_compile.formats.mjcf.keyframes import key_elements
 from linkforge_compile.formats.mjcf.meshes import mesh_assets
 from linkforge_compile.formats.mjcf.sensors import sensor_elements
-from linkforge_compile.formats.mjcf.tree import BodyTree
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def robot_view(robot: Robot, *, is_free: bool) -> View:
     """Return what templates see of a robot in MJCF; one that `is_free` has six degrees of freedom more."""
-    tree, meshes = BodyTree.of(robot), mesh_assets(robot)
+    tree, meshes = KinematicTree.of(robot), mesh_assets(robot)
     return View(
         attributes=attributes_at(robot.source, "name", model=robot.name),
         mesh_folder=meshes.folder,

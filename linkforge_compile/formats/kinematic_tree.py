@@ -1,4 +1,4 @@
-"""The links of a robot as a tree of bodies: what holds what, what moves, and which bodies lack mass."""
+"""The links of a robot as a tree of bodies: which joint holds each, and what fixed joints hold together."""
 
 from __future__ import annotations
 
@@ -7,17 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints
 from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.moments import possible_inertia, principal_moments
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.link import InertiaTensor, Link
+    from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.robot import Robot
 
 WORLD = "world"
-"""The body that MuJoCo has by itself; a root link of this name is that body."""
-
-LEAST = 1e-13
-"""MuJoCo refuses moving bodies with a hundredth of this mass [kg], and tensors with a tenth of it [kg·m²]."""
+"""The body that simulators have by themselves; a root link of this name is that body."""
 
 
 class Node(NamedTuple):
@@ -28,8 +24,8 @@ class Node(NamedTuple):
     depth: int
 
 
-class BodyTree(NamedTuple):
-    """The links of a robot, each before those below it, as MuJoCo numbers bodies; `below` has the joints by parent.
+class KinematicTree(NamedTuple):
+    """The links of a robot, each before those below it, depth first; `below` has the joints by parent.
 
     A joint to a link that has one already is left out. The world is no body, so it is not among the nodes that hold
     others.
@@ -39,7 +35,7 @@ class BodyTree(NamedTuple):
     below: Mapping[str, Sequence[Joint]]
 
     @classmethod
-    def of(cls, robot: Robot) -> BodyTree:
+    def of(cls, robot: Robot) -> KinematicTree:
         above, below = parent_joints(robot.joints), child_joints(robot.joints)
         open_nodes = [Node(link, None, 0) for link in reversed(robot.links) if link.name not in above]
         nodes: list[Node] = []
@@ -62,20 +58,3 @@ class BodyTree(NamedTuple):
         for name in held:
             yield name
             held += [joint.child for joint in self.below.get(name, ()) if joint.type == JointType.FIXED]
-
-
-def massless_movers(robot: Robot, tree: BodyTree, *, is_free: bool) -> Iterator[Link]:
-    """Yield each link that moves although neither it nor what is fixed to it has mass and inertia."""
-    for link, joint, _ in tree.nodes:
-        moves = is_free and link.name != WORLD if joint is None else joint.type != JointType.FIXED
-        if moves and not any(_has_inertia(robot.links[held]) for held in tree.held_by(link.name)):
-            yield link
-
-
-def _has_inertia(link: Link) -> bool:
-    return link.mass > LEAST and principal_moments(accepted_inertia(link))[0] > LEAST / 2
-
-
-def accepted_inertia(link: Link) -> InertiaTensor:
-    """Return the tensor of a link with an inertial if MuJoCo accepts it, else one with larger moments."""
-    return possible_inertia(link.inertia, LEAST if link.mass else 0.0)

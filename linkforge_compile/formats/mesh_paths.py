@@ -1,0 +1,41 @@
+"""The files of meshes on this machine, for formats whose readers do not look for packages."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.core.models.geometry import Mesh
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+
+class MeshPath(NamedTuple):
+    """A mesh with the absolute path of its file, None for a file that is not found."""
+
+    mesh: Mesh
+    path: Path | None
+
+
+def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
+    """Yield each mesh of a robot once, those of one file with different scales too, in the order of the links."""
+    spec = robot.source.span.file.path if robot.source else None
+    folder = spec.parent if spec else None
+    for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
+        if isinstance(mesh, Mesh):
+            yield MeshPath(mesh, _resolved(robot, mesh.resource, folder))
+
+
+def _resolved(robot: Robot, resource: str, folder: Path | None) -> Path | None:
+    try:
+        return Path(os.path.normpath(robot.resource_resolver.resolve(resource, relative_to=folder)))
+    except (OSError, ValueError):  # ValueError: a name that no file can have
+        return None
+
+
+def is_relative(mesh: Mesh) -> bool:
+    """Whether the path of a mesh starts at the folder of the file that contains it."""
+    return "://" not in mesh.resource and not Path(mesh.resource).is_absolute()
