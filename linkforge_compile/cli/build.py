@@ -74,16 +74,6 @@ def targets_for(robot: Robot, targets: Targets) -> tuple[Targets, tuple[Diagnost
     return targets.without(missing), tuple(missing.values()) if targets.is_requested else ()
 
 
-def paths_for(robot: Robot, targets: Targets) -> tuple[Path, ...]:
-    """Return the files that rendering a robot to the targets writes."""
-    return tuple(
-        _place(path, name)
-        for format_, path in targets.paths.items()
-        if path is not None
-        for name in format_named(format_).file_names(robot)
-    )
-
-
 def _place(target: Path, name: str) -> Path:
     """Return the file of a document: the target, or a file below it for a format of several files."""
     return target / name if name else target

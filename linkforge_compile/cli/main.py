@@ -30,6 +30,7 @@ COMMANDS = {
     "where": "find what in a spec wrote a line of a URDF or SRDF",
     "import": "convert an existing URDF to a spec",
     "schema": "print the JSON Schema of specs, for editors",
+    "formats": "list the output formats, with what each keeps and loses of a robot",
     "deps": "list the files from which a robot is compiled",
     "matcher": "print the problem matcher for GitHub Actions",
 }

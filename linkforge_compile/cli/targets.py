@@ -35,6 +35,12 @@ class Targets(NamedTuple):
         return () if self.are_documents else tuple(self.paths)
 
     @property
+    def files(self) -> tuple[Path, ...]:
+        """The files that rendering to the targets writes, without source maps."""
+        written = ((path, formats.format_named(name)) for name, path in self.paths.items() if path is not None)
+        return tuple(path / file for path, format_ in written for file in format_.files or ("",))
+
+    @property
     def folder(self) -> Path | None:
         """The folder where relative paths in the documents start; None where that is not known."""
         names = (name for name in self.formats if formats.format_named(name).has_relative_paths)

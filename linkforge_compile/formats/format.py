@@ -81,8 +81,17 @@ class Format(ABC):
     suffix: str
     """The ending of its file's name, or of its folder's name for a format of several files."""
 
+    files: tuple[str, ...] = ()
+    """The paths of its documents below its folder; empty for a format of a single file. It makes all for any robot."""
+
     description: str
     """One line for the help."""
+
+    keeps: str
+    """What it keeps of a robot, in one sentence."""
+
+    loses: str
+    """What it cannot hold of a robot, in one sentence; `limits` reports each such part."""
 
     is_default: bool = False
     """Whether it is written to a folder, and `check` reports its limits, without being requested."""
@@ -108,10 +117,6 @@ class Format(ABC):
     def missing(self, robot: Robot) -> Diagnostic | None:
         """Return why the format has nothing to write for a robot; None where it has."""
         return None
-
-    def file_names(self, robot: Robot) -> tuple[str, ...]:
-        """Return the names of the documents that `render` makes, without rendering."""
-        return ("",)
 
     def view(self, robot: Robot, options: Options) -> object:
         """Return what a user's templates see of a robot under the name of the format; None for nothing."""

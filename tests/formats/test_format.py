@@ -31,6 +31,8 @@ class Joints(Format):
     name = "joints"
     suffix = ".joints"
     description = "the names of the joints"
+    keeps = "the names of the joints"
+    loses = "all else"
     options = (Option("case", ("lower", "upper"), "lower", "the case of the names"),)
 
     def render(self, robot, rendering):
@@ -50,13 +52,13 @@ class Folder(Format):
 
     name = "folder"
     suffix = "_config"
+    files = ("config/joints.txt", "links.txt")
     description = "a folder of files"
+    keeps = "nothing"
+    loses = "everything"
 
     def render(self, robot, rendering):
-        return tuple(Document(f"{name}\n", name) for name in self.file_names(robot))
-
-    def file_names(self, robot):
-        return ("config/joints.txt", "links.txt")
+        return tuple(Document(f"{name}\n", name) for name in self.files)
 
 
 @pytest.fixture(autouse=True)

@@ -66,13 +66,13 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[Path, ...]:
     """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
-    from linkforge_compile.cli.build import paths_for, targets_for
+    from linkforge_compile.cli.build import targets_for
 
     targets = targets_of(spec, outputs or [f"{name_of(spec)}{default_format().suffix}"])
     targets.require_files("a rule of Make", "says what files are made from")
     assert compilation.robot is not None, "a spec without errors has a robot"
     needed, faults = targets_for(compilation.robot, targets)
-    return paths_for(compilation.robot, targets if faults else needed)
+    return (targets if faults else needed).files
 
 
 def _json_text(compilation: Compilation) -> str:

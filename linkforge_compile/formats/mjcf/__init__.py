@@ -25,6 +25,14 @@ class Mjcf(TemplateFormat):
     name = "mjcf"
     suffix = ".mjcf"
     description = "the robot for MuJoCo"
+    keeps = (
+        "links, joints, inertias, shapes, meshes, mimic joints, command interfaces as actuators, IMUs, force-torque "
+        "sensors, cameras, disabled collisions and group states"
+    )
+    loses = (
+        "velocity limits, safety controllers, transmissions, settings and plugins of Gazebo, other sensors, textures "
+        "of single shapes and raw XML"
+    )
     has_relative_paths = True
     options = (BASE,)
 

@@ -23,6 +23,8 @@ class Srdf(TemplateFormat):
     name = "srdf"
     suffix = ".srdf"
     description = "the semantic part of a robot, for MoveIt"
+    keeps = "the semantic part: groups, their states, end effectors, virtual and passive joints, disabled collisions"
+    loses = "everything else, which its readers take from the URDF"
     is_default = True
 
     def missing(self, robot: Robot) -> Diagnostic | None:
