@@ -237,7 +237,7 @@ function(_linkforge_outputs result)
   get_property(others DIRECTORY PROPERTY linkforge_outputs)
   set(outputs)
   # A test holds it to the formats of the Python package whose suffix is their name.
-  set(formats urdf srdf mjcf)
+  set(formats urdf srdf mjcf sdf)
   list(JOIN formats ", " names)
   foreach(format IN LISTS ROBOT_FORMATS)
     if(NOT format IN_LIST formats)

@@ -184,7 +184,7 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
     [
         ("FORMAT urdf", "it has no argument 'FORMAT'; it takes PARAMS, VARIANT,"),
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
-        ("FORMATS sdf", "FORMATS takes urdf, srdf, mjcf, found 'sdf'"),
+        ("FORMATS usd", "FORMATS takes urdf, srdf, mjcf, sdf, found 'usd'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("FORMATS INSTALL", "nothing is said behind FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
@@ -393,7 +393,7 @@ def test_an_error_in_one_of_several_robots_stops_the_build(tmp_path: Path, gener
             "arm.robot.yaml ./arm.robot.yaml TARGET r",
             "makes arm.urdf already; add this one by linkforge_add_robot, with",
         ),
-        ("arm.robot.yaml TARGET r FORMATS sdf", "FORMATS takes urdf, srdf, mjcf, found 'sdf'"),
+        ("arm.robot.yaml TARGET r FORMATS usd", "FORMATS takes urdf, srdf, mjcf, sdf, found 'usd'"),
     ],
 )
 def test_wrong_arguments_of_several_robots_are_reported_when_cmake_configures(

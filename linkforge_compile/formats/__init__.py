@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
 from linkforge_compile.formats.mjcf import Mjcf
+from linkforge_compile.formats.sdf import Sdf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
 
@@ -19,6 +20,7 @@ __all__ = [
     "FORMATS",
     "MJCF",
     "NO_OPTIONS",
+    "SDF",
     "SRDF",
     "URDF",
     "Document",
@@ -33,9 +35,9 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF = Urdf(), Srdf(), Mjcf()
+URDF, SRDF, MJCF, SDF = Urdf(), Srdf(), Mjcf(), Sdf()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

@@ -410,7 +410,7 @@ def test_diagnostics_that_nothing_reads_change_no_exit_code(pendulum: Path, spec
 def test_an_ending_that_is_no_output_is_refused_and_nothing_is_overwritten(pendulum: Path, output: str):
     run = linkforge("compile", "swing.robot.yaml", "-o", output, cwd=pendulum)
     assert run.returncode == 2
-    assert "ends in .urdf, .srdf, .mjcf or .xml" in run.stderr
+    assert "ends in .urdf, .srdf, .mjcf, .sdf or .xml" in run.stderr
     assert (pendulum / "swing.robot.yaml").read_text() == PENDULUM
 
 
@@ -441,7 +441,7 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
-        (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
+        (("compile", "swing.robot.yaml", "--format", "usd"), "invalid choice"),
         (
             ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
             "--format srdf does not go into 'a.urdf'",

@@ -123,7 +123,7 @@ def test_a_folder_without_templates_is_refused_in_python_as_by_the_command(folde
     (folder / "other" / "urdf" / "lnik.xml.j2").touch()
     robot = compile_file(folder / "arm.robot.yaml").result()
     reason = (
-        "it has no NAME.j2 for a document, nor urdf/ or srdf/ or mjcf/ with a template that overrides one of "
+        "it has no NAME.j2 for a document, nor urdf/ or srdf/ or sdf/ or mjcf/ with a template that overrides one of "
         "linkforge's; 'urdf/lnik.xml.j2' is like 'urdf/link.xml.j2'"
     )
     for render in (render_templates, lambda robot, folder: render_urdf(robot, templates=folder)):
@@ -202,7 +202,7 @@ def test_no_template_is_written_over(folder: Path):
         (("--template", "t", "--source-map", "-o", "out/"), "--source-map cannot be combined with --template"),
         (
             ("--template", "two", "-o", "notes.md"),
-            "-o takes a folder, or a file that ends in .urdf, .srdf, .mjcf or",
+            "-o takes a folder, or a file that ends in .urdf, .srdf, .mjcf, .sdf or",
         ),
         (("--template", "t", "--check"), "--check compares with files"),
     ],

@@ -25,7 +25,12 @@ def mesh(resource: str) -> Robot:
 
 
 def test_every_format_is_in_the_table():
-    assert [(one.name, one.suffix) for one in FORMATS] == [("urdf", ".urdf"), ("srdf", ".srdf"), ("mjcf", ".mjcf")]
+    assert [(one.name, one.suffix) for one in FORMATS] == [
+        ("urdf", ".urdf"),
+        ("srdf", ".srdf"),
+        ("mjcf", ".mjcf"),
+        ("sdf", ".sdf"),
+    ]
 
 
 def test_a_document_declares_itself_and_ends_its_last_line():

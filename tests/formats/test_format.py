@@ -79,9 +79,9 @@ def test_the_help_describes_it(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["compile", "--help"])
     words = " ".join(capsys.readouterr().out.split())
-    assert "{urdf,srdf,mjcf,joints,folder}" in words
+    assert "{urdf,srdf,mjcf,sdf,joints,folder}" in words
     assert "joints: the names of the joints" in words
-    assert "a file that ends in .urdf, .srdf, .mjcf, .joints or .xml" in words
+    assert "a file that ends in .urdf, .srdf, .mjcf, .sdf, .joints or .xml" in words
     assert "--case {lower,upper}" in words
 
 
