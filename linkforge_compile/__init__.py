@@ -1,11 +1,12 @@
-"""A declarative compiler for robots: YAML specs in, URDF and SRDF out.
+"""A declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out.
 
-    from linkforge_compile import compile_file, render_urdf
+    from linkforge_compile import compile_file, render, render_urdf
 
     compilation = compile_file("arm.robot.yaml", parameters={"reach": "0.7 m"})
     for diagnostic in compilation.diagnostics:
         print(diagnostic)
     urdf = render_urdf(compilation.result())      # CompileError where the spec has errors
+    mjcf = render(compilation.result(), "mjcf")   # any format that `linkforge formats` lists
 
 Nothing here prints or exits. The model of a robot is `linkforge_compile.core`.
 """
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
     from linkforge_compile.export_spec import write_spec
     from linkforge_compile.formats.render import (
+        render,
+        render_files,
         render_srdf,
         render_srdf_with_map,
         render_templates,
@@ -57,6 +60,8 @@ __all__ = [
     "compile_file",
     "compile_text",
     "import_urdf",
+    "render",
+    "render_files",
     "render_srdf",
     "render_srdf_with_map",
     "render_templates",
@@ -81,6 +86,8 @@ _HOMES = {
     "compile_file": "pipeline",
     "compile_text": "pipeline",
     "import_urdf": "importing",
+    "render": "formats.render",
+    "render_files": "formats.render",
     "render_srdf": "formats.render",
     "render_srdf_with_map": "formats.render",
     "render_templates": "formats.render",

@@ -11,8 +11,12 @@ LaunchDescription([
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from time import time_ns
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from weakref import ref
@@ -24,10 +28,10 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
-from linkforge_compile.expand import is_xacro
 from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.file_watcher import FileWatcher
-from linkforge_compile.formats import SRDF, URDF, Format, Rendering
+from linkforge_compile.formats import NO_OPTIONS, SRDF, URDF, Format, Options, Rendering, format_named, require_options
+from linkforge_compile.load import is_xacro
 from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
 
 if TYPE_CHECKING:
@@ -36,10 +40,10 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.listing import ListedParameter
     from linkforge_compile.formats.urdf import Gazebo
+    from linkforge_compile.listing import ListedParameter
 
-    Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument]]
+    Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument], tuple[str, ...]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]
     Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | str | Substitution]]
 
@@ -47,17 +51,28 @@ __all__ = ["RobotDescription"]
 
 
 class _Text(Substitution):  # type: ignore[misc]  # the launch package has no types
-    """A text that is made of the robot when it is launched."""
+    """A text that is made of the robot when it is launched: a document of a format."""
 
-    def __init__(self, robot: RobotDescription, format_: Format) -> None:
+    def __init__(self, robot: RobotDescription, format_: Format, document: str) -> None:
         super().__init__()
-        self._robot, self._format = robot, format_
+        self._robot, self._format, self._document = robot, format_, document
 
     def describe(self) -> str:
-        return f"{self._format.name.upper()} of {self._robot.spec}"
+        return f"{' '.join(filter(None, (self._format.name.upper(), self._document)))} of {self._robot.spec}"
 
     def perform(self, context: LaunchContext) -> str:
-        return self._robot.compiled(context).texts[self._format.name]
+        return self._robot.compiled(context).text(self._format, self._document)
+
+
+class _File(_Text):
+    """The path of a file with such a text, which is written when it is launched."""
+
+    def perform(self, context: LaunchContext) -> str:
+        name = f"{self._robot.spec.name.partition('.')[0]}{self._format.suffix}"
+        path = self._robot.folder / name / self._document
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(super().perform(context), "utf-8")
+        return str(path)
 
 
 class _TextParameter(ParameterValue):  # type: ignore[misc]  # the launch_ros package has no types
@@ -69,24 +84,33 @@ class _TextParameter(ParameterValue):  # type: ignore[misc]  # the launch_ros pa
 
 
 class _Compiled(NamedTuple):
-    """The texts of one compile by format, with its launch, its variant and values, and its files."""
+    """The robot of one compile, with its launch, its variant, values and formats, and its files."""
 
     launch: ref[LaunchContext]
     values: Values
     files: FileWatcher
-    texts: Mapping[str, str]
+    robot: Robot
+    options: Options
 
     def is_current(self, context: LaunchContext, values: Values) -> bool:
         # Another launch reports the warnings as well, and may have another environment.
         return self.launch() is context and self.values == values and not self.files.poll()
 
+    def text(self, format_: Format, document: str) -> str:
+        """Return a document of a format; SubstitutionFailure if there is nothing to write for the robot."""
+        if not format_.is_default and (missing := format_.missing(self.robot)):
+            raise SubstitutionFailure(str(missing))
+        documents = format_.render(self.robot, Rendering(self.options))
+        return next(one.text for one in documents if one.name == document)
+
 
 class RobotDescription:
     """A spec that is compiled when it is launched, with the values that its launch arguments then have.
 
-    `urdf` and `srdf` are substitutions: texts for whatever takes one. `description` and `semantic` are those texts as
-    the ROS parameters `robot_description` and `robot_description_semantic`. `arguments` declares a launch argument for
-    each parameter of the spec that is not given here.
+    `urdf` and `srdf` are substitutions: texts for any argument that accepts one, and `text(FORMAT)` is that of another
+    format, `file(FORMAT)` the path of a file with it. `description` and `semantic` are the URDF and SRDF as the ROS
+    parameters `robot_description` and `robot_description_semantic`. `arguments` declares a launch argument for each
+    parameter of the spec that is not given here.
     """
 
     def __init__(
@@ -97,6 +121,7 @@ class RobotDescription:
         variant: Words | None = None,
         packages: Packages | None = None,
         gazebo: Gazebo = "gz",
+        options: Options = NO_OPTIONS,
         allow_outside: bool = False,
         argument_prefix: str = "",
     ) -> None:
@@ -110,13 +135,15 @@ class RobotDescription:
         Raises:
             CompileError: The parameters of the spec cannot be listed.
             TypeError: A value is nothing that a launch file can give, or the parameters are no map.
-            ValueError: The spec has no such variant or parameter.
+            ValueError: The spec has no such variant or parameter, or no format has such an option.
 
         """
         if not isinstance(parameters, Mapping | None):
             raise TypeError(f"the parameters are values by name, {{'NAME': VALUE}}; found {parameters!r}")
         variant = None if variant == "" else variant
-        self.spec, self.gazebo = Path(spec), gazebo
+        self.spec, self._options = Path(spec), {"gazebo": gazebo, **options}
+        require_options(self._options)
+        self._formats: dict[str, Format] = {}
         self._given = {name: _substitutions(name, value) for name, value in (parameters or {}).items()}
         self._variant: list[Substitution] | None = None if variant is None else _substitutions("variant", variant)
         self._packages, self._prefix = packages, argument_prefix
@@ -131,9 +158,46 @@ class RobotDescription:
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
         self.arguments = [self._argument(one) for one in listing.parameters if one.name not in self._given]
         self._compiled: _Compiled | None = None
-        self.urdf, self.srdf = _Text(self, URDF), _Text(self, SRDF)
+        self.urdf, self.srdf = _Text(self, URDF, ""), _Text(self, SRDF, "")
         self.description = {"robot_description": _TextParameter(self.urdf, value_type=str)}
         self.semantic = {"robot_description_semantic": _TextParameter(self.srdf, value_type=str)}
+
+    def text(self, format_: str, document: str = "", /) -> Substitution:
+        """Return the text in a format, by its name, as a substitution.
+
+        `document` is the path of one of several files, such as `config/kinematics.yaml`.
+
+        Raises:
+            ValueError: There is no such format, or it has no such file.
+
+        """
+        return _Text(self, self._requested(format_, document), document)
+
+    def file(self, format_: str, document: str = "", /) -> Substitution:
+        """Return the path of a file with the text in a format as a substitution; it is removed after the launch.
+
+        In the `parameters` of a node it is a file of parameters, such as that of ros2_control.
+
+        Raises:
+            ValueError: There is no such format, or it has no such file.
+
+        """
+        return _File(self, self._requested(format_, document), document)
+
+    def _requested(self, name: str, document: str) -> Format:
+        chosen = format_named(name)
+        if document not in (chosen.files or ("",)):
+            files = f"has the files {', '.join(chosen.files)}" if chosen.files else "is a single file"
+            raise ValueError(f"the format {name} {files}, found '{document}'")
+        self._formats[name] = chosen
+        return chosen
+
+    @cached_property
+    def folder(self) -> Path:
+        """The folder of the files of a launch, which is removed when Python ends."""
+        folder = Path(mkdtemp(prefix="linkforge_launch_"))
+        atexit.register(rmtree, folder, ignore_errors=True)
+        return folder
 
     def _argument(self, parameter: ListedParameter) -> DeclareLaunchArgument:
         default = self._defaults[parameter.name]
@@ -173,13 +237,12 @@ class RobotDescription:
         """
         variant, values = self._variant_of(context), self._assignments(context)
         self._require_values(variant, values)
-        if self._compiled is None or not self._compiled.is_current(context, (variant, values)):
+        key = (variant, values, tuple(self._formats))
+        if self._compiled is None or not self._compiled.is_current(context, key):
             began, files = time_ns(), FileWatcher(())
             robot, read = self._compile(variant, values)
             files.track(read, began)
-            rendering = Rendering({"gazebo": self.gazebo})
-            texts = {one.name: one.render(robot, rendering)[0].text for one in (URDF, SRDF)}
-            self._compiled = _Compiled(ref(context), (variant, values), files, texts)
+            self._compiled = _Compiled(ref(context), key, files, robot, self._options)
         return self._compiled
 
     def _compile(self, variant: str | None, values: Mapping[str, CliArgument]) -> tuple[Robot, Sequence[Path]]:
@@ -189,7 +252,8 @@ class RobotDescription:
             parameters=values,
             packages=self._packages,
             variant=variant,
-            gazebo=self.gazebo,
+            formats=self._formats,
+            options=self._options,
             allow_outside=self._allow_outside,
         )
         from linkforge_compile.diagnostics import Severity

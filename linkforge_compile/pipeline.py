@@ -17,29 +17,19 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import (
-    Arguments,
-    CliArgument,
-    ImportSite,
-    Loader,
-    SpecFile,
-    Unset,
-    arguments_from_text,
-    arguments_from_values,
-    expand,
-    is_xacro,
-)
-from linkforge_compile.formats import NO_OPTIONS, Options, report_limits, require_options
+from linkforge_compile.expand import Arguments, CliArgument, Unset, arguments_from_text, arguments_from_values, expand
+from linkforge_compile.formats import NO_OPTIONS, Options, format_named, report_limits, require_options
 from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
+from linkforge_compile.load import ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.listing import Listing
+    from linkforge_compile.listing import Listing
 
 __all__ = [
     "CliArgument",
@@ -72,6 +62,8 @@ def compile_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     output: str | Path | None = None,
     allow_outside: bool = False,
 ) -> Compilation:
@@ -79,17 +71,19 @@ def compile_file(
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults, or several
     of them, `a+b`, of which the last one decides. `gazebo` is the simulator, Gazebo Sim or Classic, whose limits are
-    reported; give it to `render_urdf` as well. `output` is the folder of the URDF, from which relative paths of meshes
-    must lead to a file; None if it is not known.
+    reported; give it to `render_urdf` as well. `formats` are those whose limits are reported in addition to URDF and
+    SRDF, and `options` are theirs, such as `{"base": "free"}`; give these to `render` as well. `output` is the folder
+    of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
     Raises:
-        ValueError: for another `gazebo` than `gz` or `classic`.
+        ValueError: for an unknown format or option, and another `gazebo` than `gz` or `classic`.
 
     """
     folder = Path(output) if output is not None else None
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, output=folder, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folder, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -102,10 +96,13 @@ def compile_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Compile a spec given as text; `name` is its name in diagnostics, `folder` is where relative paths start."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, None, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -116,10 +113,13 @@ def check_file(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Report what is wrong with a spec file; what depends on a required parameter without a value is not checked."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -132,10 +132,13 @@ def check_text(
     packages: Packages | None = None,
     variant: str | None = None,
     gazebo: Gazebo = "gz",
+    formats: Iterable[str] = (),
+    options: Options = NO_OPTIONS,
     allow_outside: bool = False,
 ) -> Compilation:
     """Report what is wrong with a spec given as text, as `check_file` does."""
-    settings = Settings(parameters, packages, variant, {"gazebo": gazebo}, Unset.NOTE, allow_outside=allow_outside)
+    options, formats = {"gazebo": gazebo, **options}, tuple(formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -173,13 +176,13 @@ def parameters_of(
 
     Those of a xacro file are the arguments that it and its includes declare; a URDF declares none.
     """
-    from linkforge_compile.expand.listing import list_parameters
+    from linkforge_compile.listing import list_parameters
 
     sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
         if is_xacro(Path(path)):
-            from linkforge_compile.expand.listing import list_arguments
+            from linkforge_compile.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -233,9 +236,11 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.arguments import xacro_arguments
+        from linkforge_compile.load.xacro import XacroUse, open_xacro
 
-        return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
+        arguments = xacro_arguments(settings.arguments(loader, sink), sink)
+        return open_xacro(XacroUse(file, ImportSite(str(path), None), arguments), loader, sink)
 
     # What xacro expands has no parameters.
     return _compile(read, file, settings._replace(parameters=None))
@@ -255,6 +260,8 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 @suggestion_budget()
 def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_options(settings.options)
+    for name in settings.formats:
+        format_named(name)
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
@@ -299,7 +306,11 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
         if settings.output is not None:
             from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
 
-            sink.report_all(check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder))
+            documents = (name.upper() for name in settings.formats if format_named(name).has_relative_paths)
+            document = next(documents, "URDF")
+            sink.report_all(
+                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
+            )
     return lowered.robot
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -171,6 +170,11 @@ def test_a_module_that_is_no_more_is_missed(workspace: Workspace):
     assert "there is no file 'servo.robot.yaml'" in workspace.make_in_vain()
 
 
+NAMES = ", ".join(one.name for one in FORMATS)
+
+FIND = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+
+
 def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[str]:
     """Run lines of CMake in a project that builds nothing."""
     (folder / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.20)\nproject(p NONE)\n{text}\n")
@@ -184,7 +188,8 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
     [
         ("FORMAT urdf", "it has no argument 'FORMAT'; it takes PARAMS, VARIANT,"),
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
-        ("FORMATS usd", "FORMATS takes urdf, srdf, mjcf, sdf, found 'usd'"),
+        ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
+        ("BASE loose", "BASE takes fixed or free, found 'loose'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("FORMATS INSTALL", "nothing is said behind FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
@@ -202,19 +207,21 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
     ],
 )
 def test_cmake_configure_reports_wrong_arguments(tmp_path: Path, arguments: str, said: str):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
-    run = script(tmp_path, f"{find}\nlinkforge_add_robot(arm.robot.yaml {arguments})", "-DLINKFORGE_EXECUTABLE=true")
+    run = script(
+        tmp_path,
+        f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {arguments})",
+        f"-DLINKFORGE_EXECUTABLE={program('linkforge')}",
+    )
     assert run.returncode != 0
     assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
 
 
 def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     adds = [f"linkforge_add_robot(arm.robot.yaml {name} INSTALL)" for name in ("NAME a/head", "NAME b/head", "")]
     (tmp_path / "sub").mkdir()
     beneath = tmp_path / "sub" / "CMakeLists.txt"
-    text = "\n".join((find, *adds, "add_subdirectory(sub)"))
-    words = ("-DLINKFORGE_EXECUTABLE=true", "-DCMAKE_INSTALL_PREFIX=/prefix")
+    text = "\n".join((FIND, *adds, "add_subdirectory(sub)"))
+    words = (f"-DLINKFORGE_EXECUTABLE={program('linkforge')}", "-DCMAKE_INSTALL_PREFIX=/prefix")
     beneath.write_text("linkforge_add_robot(../arm.robot.yaml TARGET other INSTALL DESTINATION ./urdf)\n")
     said = " ".join(script(tmp_path, text, *words).stderr.split())
     assert "(../arm.robot.yaml): another one installs '/prefix/share/p/urdf/arm.urdf' already; call the files" in said
@@ -227,35 +234,37 @@ def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
 
 @pytest.mark.parametrize("said", ["${none}", '"${none}"'])
 def test_an_empty_variable_has_no_effect(tmp_path: Path, said: str):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     add = (
         f'linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} NAME "" TARGET "" INSTALL DESTINATION "")'
     )
-    run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
+    run = script(tmp_path, f"{FIND}\n{add}", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     assert (run.returncode, run.stderr) == (0, "")
     rules = "".join(path.read_text() for path in (tmp_path / "b").rglob("build.make"))
     assert "arm.robot.yaml --installed-in" in rules
 
 
 def test_cmake_configure_reports_a_missing_spec_unless_the_build_makes_it(tmp_path: Path):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     add = "linkforge_add_robot(amr.robot.yaml)"
-    run = script(tmp_path, f"{find}\n{add}", "-DLINKFORGE_EXECUTABLE=true")
+    run = script(tmp_path, f"{FIND}\n{add}", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     assert "linkforge_add_robot(amr.robot.yaml): there is no spec '" in " ".join(run.stderr.split())
-    run = script(tmp_path, f'{find}\nlinkforge_add_robot("a;b.robot.yaml")', "-DLINKFORGE_EXECUTABLE=true")
+    run = script(
+        tmp_path, f'{FIND}\nlinkforge_add_robot("a;b.robot.yaml")', f"-DLINKFORGE_EXECUTABLE={program('linkforge')}"
+    )
     assert "for it has ';' in it; rename it" in " ".join(run.stderr.split())
     makes = "set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/amr.robot.yaml PROPERTIES GENERATED TRUE)"
-    assert script(tmp_path, f"{find}\n{makes}\n{add}", "-DLINKFORGE_EXECUTABLE=true").returncode == 0
+    assert script(tmp_path, f"{FIND}\n{makes}\n{add}", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}").returncode == 0
 
 
 def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     echo = tmp_path / "echo words"
-    echo.write_text("#!/bin/sh\nprintf '%s\\n' \"$@\"\ntouch arm.urdf\n")
+    linkforge = program("linkforge")
+    echo.write_text(
+        f"#!/bin/sh\n[ $1 = formats ] && exec '{linkforge}' \"$@\"\nprintf '%s\\n' \"$@\"\ntouch arm.urdf\n"
+    )
     echo.chmod(0o755)
     (tmp_path / "parts").mkdir()
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic PACKAGES parts=parts INSTALL'
-    text = f"{find}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
+    text = f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
     assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
     build = subprocess.run(
         [program("cmake"), "--build", tmp_path / "b"], capture_output=True, text=True, check=True, timeout=60
@@ -264,6 +273,7 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     assert said[said.index("-p") : said.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
         *("--variant", "sim", "--gazebo", "classic", "--installed-in", str(tmp_path / "robots")),
+        *("--format", "urdf"),
     ]
 
 
@@ -272,9 +282,9 @@ def test_cmake_names_files_after_the_spec_as_the_command_does(tmp_path: Path):
     specs = [f"arm{number}.{part}" for number, part in enumerate(parts)]
     for spec in specs:
         (tmp_path / spec).touch()
-    text = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)\n'
+    text = f"{FIND}\n"
     text += "".join(f'linkforge_add_robot({spec} OUTPUT made)\nmessage("made ${{made}}")\n' for spec in specs)
-    run = script(tmp_path, text, "-DLINKFORGE_EXECUTABLE=true")
+    run = script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     made = [Path(line).stem for line in run.stderr.splitlines() if line.startswith("made ")]
     assert made == [name_of(spec) for spec in specs]
 
@@ -283,13 +293,12 @@ def test_cmake_names_files_after_the_spec_as_the_command_does(tmp_path: Path):
 def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, asked: str, is_found: bool):
     find = f'find_package(linkforge_compile {asked} PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     text = f'{find}\nmessage("found ${{linkforge_compile_FOUND}} ${{linkforge_compile_VERSION}}")'
-    run = script(tmp_path, text, "-DLINKFORGE_EXECUTABLE=true")
+    run = script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     assert (f"found 1 {__version__}" in run.stderr) is is_found
 
 
 def test_a_missing_command_is_reported(tmp_path: Path):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
-    run = script(tmp_path, f'set(ENV{{PATH}} "")\n{find}')
+    run = script(tmp_path, f'set(ENV{{PATH}} "")\n{FIND}')
     assert run.returncode != 0
     said = " ".join(run.stderr.split())
     assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in said
@@ -393,19 +402,51 @@ def test_an_error_in_one_of_several_robots_stops_the_build(tmp_path: Path, gener
             "arm.robot.yaml ./arm.robot.yaml TARGET r",
             "makes arm.urdf already; add this one by linkforge_add_robot, with",
         ),
-        ("arm.robot.yaml TARGET r FORMATS usd", "FORMATS takes urdf, srdf, mjcf, sdf, found 'usd'"),
+        ("arm.robot.yaml TARGET r FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
     ],
 )
 def test_wrong_arguments_of_several_robots_are_reported_when_cmake_configures(
     tmp_path: Path, arguments: str, message: str
 ):
-    find = f'find_package(linkforge_compile REQUIRED PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
-    run = script(tmp_path, f"{find}\nlinkforge_add_robots({arguments})", "-DLINKFORGE_EXECUTABLE=true")
+    run = script(
+        tmp_path, f"{FIND}\nlinkforge_add_robots({arguments})", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}"
+    )
     assert run.returncode != 0
     assert message in " ".join(run.stderr.split())
 
 
-def test_the_formats_that_cmake_knows_are_those_of_the_package():
-    text = (ROOT / "cmake" / "linkforge_add_robot.cmake").read_text("utf-8")
-    known = re.findall(r"^  set\(formats (.*)\)$", text, re.MULTILINE)
-    assert known == [" ".join(one.name for one in FORMATS if one.suffix == f".{one.name}")]
+@pytest.mark.parametrize("generator", ["Unix Makefiles", "Ninja"])
+def test_any_format_is_built_and_installed_into_its_folder(tmp_path: Path, generator: str):
+    """The formats of `tests.formats.example_formats` are known to Python alone."""
+    command = tmp_path / "linkforge"
+    command.write_text(
+        f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(ROOT)!r})\n"
+        "from linkforge_compile import formats\nfrom linkforge_compile.cli.main import main\n"
+        "from tests.formats.example_formats import Folder, Joints\n"
+        "formats.FORMATS += (Joints(), Folder())\nsys.exit(main())\n"
+    )
+    command.chmod(0o755)
+    made_by = program("ninja" if generator == "Ninja" else "make")
+    add = "arm.robot.yaml FORMATS urdf mjcf joints folder CASE upper BASE free NAME left INSTALL OUTPUT made"
+    words = ("-G", generator, f"-DCMAKE_MAKE_PROGRAM={made_by}", f"-DCMAKE_INSTALL_PREFIX={tmp_path / 'install'}")
+    run = script(
+        tmp_path,
+        f"{FIND}\nlinkforge_add_robot({add})\nlinkforge_add_robots(arm.robot.yaml TARGET all_robots FORMATS folder)",
+        *(*words, f"-DLINKFORGE_EXECUTABLE={command}"),
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+    build = (program("cmake"), "--build", str(tmp_path / "b"))
+    first, second = (subprocess.run(build, capture_output=True, text=True, check=True, timeout=60) for _ in range(2))
+    assert "Compiling robot left" in first.stdout
+    assert "Compiling" not in second.stdout, "nothing changed"
+    assert (tmp_path / "b/arm_config/links.txt").exists()
+    subprocess.run((program("cmake"), "--install", str(tmp_path / "b")), capture_output=True, check=True, timeout=60)
+    share = tmp_path / "install" / "share" / "p"
+    files = {path.relative_to(share).as_posix() for path in share.rglob("*") if path.is_file()}
+    assert files == {"urdf/left.urdf", "mjcf/left.mjcf", "config/left.joints", "config/joints.txt", "links.txt"}
+
+
+def test_a_command_that_lists_no_formats_is_reported(tmp_path: Path):
+    run = script(tmp_path, f"{FIND}\nlinkforge_add_robot(arm.robot.yaml)", "-DLINKFORGE_EXECUTABLE=/bin/false")
+    assert run.returncode != 0
+    assert "'/bin/false formats --json' fails" in " ".join(run.stderr.split())

@@ -18,8 +18,9 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 
-from linkforge_compile import CompileError
+from linkforge_compile import CompileError, formats
 from tests.conftest import ROOT
+from tests.formats.example_formats import Folder, Joints
 
 STAND_INS = Path(__file__).parent / "stand_ins"
 ROS = {path.name for path in STAND_INS.iterdir() if path.is_dir()}
@@ -85,10 +86,15 @@ def launch_with(ros: Ros, arguments: Iterable[object], /, **typed: str) -> objec
     return context
 
 
+def parameters_of(context: object, parameters: object) -> tuple[object, ...]:
+    """Return what a node gets of its parameters: maps, and paths of files."""
+    utilities = importlib.import_module("launch_ros.utilities")
+    return utilities.evaluate_parameters(context, utilities.normalize_parameters(parameters))
+
+
 def parameter_of(context: object, parameters: object, name: str) -> str:
     """Return the text of a parameter of a node, of which `parameters` are those that it was made with."""
-    utilities = importlib.import_module("launch_ros.utilities")
-    (values,) = utilities.evaluate_parameters(context, utilities.normalize_parameters(parameters))
+    (values,) = parameters_of(context, parameters)
     return values[name]
 
 
@@ -238,6 +244,41 @@ def test_a_launch_compiles_once_and_logs_diagnostics(
     assert ": note: " not in told["WARNING"]
     robot.urdf.perform(launched(ros, robot))
     assert len(compiled) == 2, "another launch is told as well"
+
+
+def test_a_launch_has_the_text_of_any_format_and_a_file_with_it(
+    ros: Ros, spec: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+):
+    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, Joints(), Folder()))
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"}, options={"base": "free", "case": "upper"})
+    mjcf, links = robot.text("mjcf"), robot.file("folder", "links.txt")
+    assert (mjcf.describe(), links.describe()) == (f"MJCF of {spec}", f"FOLDER links.txt of {spec}")
+    context = launched(ros, robot)
+    with caplog.at_level(logging.WARNING):
+        assert "<freejoint" in mjcf.perform(context)
+    assert "LF74" in caplog.text, "losses are in the log"
+    path = Path(links.perform(context))
+    assert (path.read_text(), path.parts[-2:]) == ("links.txt\n", ("arm_config", "links.txt"))
+    # After the first compile as well, and as the file of parameters of a node.
+    (file,) = parameters_of(context, [robot.file("joints")])
+    assert (file.name, file.read_text()) == ("arm.joints", "TURN\nLOOK\n")
+    spec.write_text(SPEC.replace("turn:", "twist:"))
+    assert Path(robot.file("joints").perform(context)).read_text() == "TWIST\nLOOK\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("sdff",), "there is no format 'sdff'"),
+        (("mjcf", "links.txt"), "the format mjcf is a single file, found 'links.txt'"),
+    ],
+)
+def test_a_text_that_no_format_has_stops_the_launch_file(ros: Ros, spec: Path, words: tuple[str, ...], message: str):
+    robot = ros.ours.RobotDescription(spec, {"serial": "A1"})
+    with pytest.raises(ValueError, match=message):
+        robot.text(*words)
+    with pytest.raises(ValueError, match="no format has an option 'bsae'"):
+        ros.ours.RobotDescription(spec, {"serial": "A1"}, options={"bsae": "free"})
 
 
 def test_a_launch_that_goes_on_meets_a_spec_as_it_is_now(ros: Ros, spec: Path):

@@ -28,6 +28,7 @@ COMMANDS = {
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of a URDF or SRDF",
+    "collisions": "find the pairs of links that need no check for collisions, by sampling",
     "import": "convert an existing URDF to a spec",
     "schema": "print the JSON Schema of specs, for editors",
     "formats": "list the output formats, with what each keeps and loses of a robot",

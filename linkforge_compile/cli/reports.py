@@ -26,6 +26,10 @@ PATIENCE = 3.0
 PROGRESS_INTERVAL = 2.0
 """Time between two messages of `progress` [s]."""
 
+ANY_CODE = "LF"
+OUTPUT_CODES = "LF7"
+"""How all codes begin, and those about what is written."""
+
 _Item = TypeVar("_Item")
 
 _BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
@@ -57,13 +61,31 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
         default=[],
         help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
     )
-    group.add_argument("--werror", action="store_true", help="report warnings as errors")
+    group.add_argument(
+        "--werror",
+        dest="errors",
+        action="append_const",
+        const=ANY_CODE,
+        default=[],
+        help="report warnings as errors",
+    )
     group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     group.add_argument(
         "--color",
         choices=("auto", "always", "never"),
         default="auto",
         help="whether to color text (default: on a terminal)",
+    )
+
+
+def add_strict_option(parser: argparse.ArgumentParser) -> None:
+    """Add `--strict`, for commands with `add_report_options` that write outputs."""
+    parser.add_argument(
+        "--strict",
+        dest="errors",
+        action="append_const",
+        const=OUTPUT_CODES,
+        help="write nothing and fail if an output cannot hold a part of the robot: warnings LF7 are errors",
     )
 
 
@@ -74,7 +96,7 @@ def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
         return ()
     from linkforge_compile.diagnostics.reports import Selection
 
-    selection = Selection(tuple(arguments.select), tuple(arguments.ignore), arguments.werror, arguments.quiet)
+    selection = Selection(tuple(arguments.select), tuple(arguments.ignore), tuple(arguments.errors), arguments.quiet)
     return selection.of(diagnostics)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile import formats
 from linkforge_compile.cli import UsageError
+from linkforge_compile.diagnostics.enumerations import alternatives
 
 if TYPE_CHECKING:
     import argparse
@@ -37,8 +38,12 @@ class Targets(NamedTuple):
     @property
     def files(self) -> tuple[Path, ...]:
         """The files that rendering to the targets writes, without source maps."""
-        written = ((path, formats.format_named(name)) for name, path in self.paths.items() if path is not None)
-        return tuple(path / file for path, format_ in written for file in format_.files or ("",))
+        written = {name: path for name, path in self.paths.items() if path is not None}
+        if self.are_documents:
+            return tuple(written.values())
+        return tuple(
+            path / file for name, path in written.items() for file in formats.format_named(name).files or ("",)
+        )
 
     @property
     def folder(self) -> Path | None:
@@ -71,6 +76,7 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
         default=[],
         help=f"only this one, once more for another one (default on standard output: {names[0]}); {about}",
     )
+    parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: that of the spec)")
 
 
 def add_output_option(parser: argparse.ArgumentParser) -> None:
@@ -82,15 +88,15 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
         dest="outputs",
         action="append",
         default=[],
-        help=f"a folder for {written}, or a file that ends in {_listed(_file_endings())}; "
+        help=f"a folder for {written}, or a file that ends in {alternatives(_file_endings())}; "
         "once more for the file of another format",
     )
 
 
-def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = (), variant: str = "") -> Targets:
+def targets_of(name: str, outputs: Sequence[str], chosen: Sequence[str] = ()) -> Targets:
     """Return the target of each format of a spec; UsageError for outputs that contradict each other.
 
-    `chosen` are the formats of `--format`; without it, the outputs decide. `variant` is part of the names in a folder.
+    `chosen` are the formats of `--format`; without it, the outputs decide. `name` is that of the files in a folder.
     """
     if "" in outputs:
         raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
@@ -99,16 +105,16 @@ def targets_of(spec: str, outputs: Sequence[str], chosen: Sequence[str] = (), va
     if len(outputs) > 1:
         return Targets(_several(outputs, _only(chosen)))
     (output,) = outputs
-    if not is_folder_of_outputs(output):
+    if not is_folder_of_outputs(output, chosen):
         return Targets({_format_of_file(output, _only(chosen)): Path(output)})
-    folder, name = Path(output), "_".join(filter(None, (name_of(spec), variant)))
     written = [one for one in formats.FORMATS if (one.name in chosen if chosen else one.is_default)]
-    return Targets({one.name: folder / f"{name}{one.suffix}" for one in written}, is_requested=bool(chosen))
+    paths = {one.name: Path(output, f"{name}{one.suffix}") for one in written}
+    return Targets(paths, is_requested=bool(chosen))
 
 
-def is_folder_of_outputs(output: str) -> bool:
-    """Whether `-o` names a folder; UsageError for a file of another kind than outputs are."""
-    return file_to_write(output) is not None and not _is_file(output, _file_endings())
+def is_folder_of_outputs(output: str, chosen: Sequence[str] = ()) -> bool:
+    """Whether `-o` names a folder; UsageError for a file of another kind than outputs of the chosen formats are."""
+    return file_to_write(output) is not None and not _is_file(output, _file_endings(chosen))
 
 
 def _only(chosen: Sequence[str]) -> str | None:
@@ -146,7 +152,7 @@ def _is_document(output: str, name: str) -> bool:
     """Whether `-o` names a document's file: one with a suffix, but not of a format that the document has not."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
-    is_of_format = path.suffix in _suffixes() and path.suffix != Path(name).suffix
+    is_of_format = _format_by_suffix(output) is not None and path.suffix != Path(name).suffix
     return not is_folder and bool(path.suffix) and not is_of_format
 
 
@@ -178,7 +184,7 @@ def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | Non
     for output in outputs:
         if file_to_write(output) is None:
             raise UsageError(f"-o {output} is standard output, which takes one format; leave the other -o out")
-        if not _is_file(output, _file_endings()):
+        if not _is_file(output, _file_endings([chosen] if chosen else [])):
             raise UsageError(f"-o takes several files, one a format, or one folder; found the folder '{output}'")
         format_ = _format_of_file(output, chosen)
         if format_ in paths:
@@ -188,28 +194,30 @@ def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | Non
 
 
 def _suffixes() -> dict[str, str]:
-    """Return the names of the formats of one file by suffix."""
-    return {one.suffix: one.name for one in formats.FORMATS if one.suffix.startswith(".")}
+    """Return the names of the formats of one file by suffix, such as `.urdf` or `_controllers.yaml`."""
+    return {one.suffix: one.name for one in formats.FORMATS if not one.files}
 
 
-def _file_endings() -> tuple[str, ...]:
-    return (*_suffixes(), ".xml")
+def _file_endings(chosen: Sequence[str] = ()) -> tuple[str, ...]:
+    """Return how the names of outputs may end; with `--format`, a file may have any name, as `joint_limits.yaml`."""
+    of_chosen = (Path(f"NAME{suffix}").suffix for suffix, name in _suffixes().items() if name in chosen)
+    return tuple(dict.fromkeys((*_suffixes(), *of_chosen, ".xml")))
 
 
-def _listed(endings: Sequence[str]) -> str:
-    *others, last = endings
-    return f"{', '.join(others)} or {last}"
+def _format_by_suffix(output: str) -> str | None:
+    found = [suffix for suffix in _suffixes() if output.endswith(suffix)]
+    return _suffixes()[max(found, key=len)] if found else None
 
 
 def _format_of_file(output: str, chosen: str | None) -> str:
     """Return the format of a file by its suffix; a file with any other suffix may have any format."""
-    of_suffix = _suffixes().get(Path(output).suffix)
+    of_suffix = _format_by_suffix(output)
     if chosen and of_suffix not in (None, chosen):
         raise UsageError(f"--format {chosen} does not go into '{output}'")
     return chosen or of_suffix or default_format().name
 
 
-def _is_file(output: str, endings: Sequence[str]) -> bool:
+def _is_file(output: str, endings: tuple[str, ...]) -> bool:
     """Whether `-o` names a file: one with one of the endings, a device or a pipe. Other words name folders.
 
     UsageError for any other suffix: `-o arm.robot.yaml` would replace the spec, or create a folder of that name.
@@ -217,9 +225,9 @@ def _is_file(output: str, endings: Sequence[str]) -> bool:
     path = Path(output)
     if output.endswith(("/", "\\")) or path.is_dir():
         return False
-    if path.suffix and path.suffix not in endings:
+    if path.suffix and not path.name.endswith(endings):
         raise UsageError(
-            f"-o takes a folder, or a file that ends in {_listed(endings)}; found '{output}'"
+            f"-o takes a folder, or a file that ends in {alternatives(endings)}; found '{output}'"
             f" (for a folder of that name, write '{output}/')"
         )
     return bool(path.suffix) or (path.exists() and not path.is_file())

@@ -187,6 +187,13 @@ def field_specs(kind: type) -> Mapping[str, Spec]:
     return _describe(kind).specs
 
 
+def key_fields(kind: type) -> tuple[str, ...]:
+    """Return the fields that are keys of the maps around an element in the language, the outer one first."""
+    specs = field_specs(kind)
+    keys = [name for name, spec in specs.items() if isinstance(spec, Text) and not (spec.key or spec.container)]
+    return tuple(sorted(keys, key=lambda name: isinstance(specs[name], Name)))  # a name comes after what it is within
+
+
 def number_fields(kind: type) -> Mapping[str, Number]:
     """Return the specs of the numbers of a model class, in the order of its fields."""
     return _describe(kind).numbers

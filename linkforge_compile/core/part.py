@@ -162,6 +162,10 @@ class Element(WithExtras):
 
     TAG: ClassVar[str] = ""
     """The tag of the element; empty where it depends on what holds the part."""
+    TITLE: ClassVar[str] = ""
+    """What messages call an element, with its key fields in braces; empty where that is its tag and its name."""
+    SHORT_FORM: ClassVar[str] = ""
+    """The field whose value the language accepts in place of a map; empty where there is always a map."""
     ATTRIBUTE_ORDER: ClassVar[tuple[str, ...]] = ()
     """The attributes as they are written in XML; empty where their order is that of the fields."""
     NAMES_INSIDE_TAKE_PREFIX: ClassVar[bool] = False

@@ -31,18 +31,20 @@ class Selection(NamedTuple):
     """The only ones to report; all of them if empty."""
     ignore: tuple[str, ...] = ()
     """Those of the selected ones that are not reported."""
-    warnings_are_errors: bool = False
+    errors: tuple[str, ...] = ()
+    """Those whose warnings are reported as errors."""
     errors_only: bool = False
 
     def of(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Return what is to be reported, in the same order."""
         wanted = (one for one in diagnostics if one.severity is Severity.ERROR or self._wants(one.code.id))
-        if self.warnings_are_errors:
-            wanted = (
-                replace(one, severity_override=Severity.ERROR) if one.severity is Severity.WARNING else one
-                for one in wanted
-            )
-        return tuple(one for one in wanted if one.severity is Severity.ERROR or not self.errors_only)
+        raised = map(self._raised, wanted)
+        return tuple(one for one in raised if one.severity is Severity.ERROR or not self.errors_only)
+
+    def _raised(self, one: Diagnostic) -> Diagnostic:
+        if one.severity is Severity.WARNING and one.code.id.startswith(self.errors):
+            return replace(one, severity_override=Severity.ERROR)
+        return one
 
     def _wants(self, code: str) -> bool:
         return (not self.select or code.startswith(self.select)) and not code.startswith(self.ignore)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
+from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
 from linkforge_compile.formats.sdf import Sdf
 from linkforge_compile.formats.srdf import Srdf
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FORMATS",
+    "JOINT_LIMITS",
     "MJCF",
     "NO_OPTIONS",
     "SDF",
@@ -35,14 +38,21 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF, SDF = Urdf(), Srdf(), Mjcf(), Sdf()
+URDF, SRDF, MJCF, SDF, JOINT_LIMITS = Urdf(), Srdf(), Mjcf(), Sdf(), JointLimitsYaml()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF, JOINT_LIMITS)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 
 def format_named(name: str) -> Format:
-    return next(one for one in FORMATS if one.name == name)
+    """Return a format by its name; ValueError for an unknown one."""
+    formats = {one.name: one for one in FORMATS}
+    if name not in formats:
+        from linkforge_compile.diagnostics.suggest import did_you_mean
+
+        hint = did_you_mean(name, formats) or f"; there are {', '.join(formats)}"
+        raise ValueError(f"there is no format '{name}'{hint}")
+    return formats[name]
 
 
 def declared_options() -> tuple[Option, ...]:
@@ -51,14 +61,17 @@ def declared_options() -> tuple[Option, ...]:
 
 
 def require_options(options: Options) -> None:
-    """Check the values of options.
+    """Check options.
 
     Raises:
-        ValueError: for a value that is not one of its option's choices.
+        ValueError: for a name that no format declares, and for a value that is not one of its option's choices.
 
     """
-    for option in declared_options():
-        option.value(options)
+    declared = {option.name: option for option in declared_options()}
+    for name in options:
+        if name not in declared:
+            raise ValueError(f"no format has an option '{name}'; there are {', '.join(declared)}")
+        declared[name].value(options)
 
 
 def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:
@@ -72,11 +85,15 @@ def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ())
 def render_documents(robot: Robot, templates: TemplateFolder, options: Options, banner: str) -> dict[str, str]:
     """Return what each document's template of a folder makes of the robot, by the document's name.
 
+    The views of formats are made only if a template uses them.
+
     Raises:
-        TemplateError: with all that is wrong with the templates.
-        RobotGeneratorError: for a robot whose text XML cannot hold.
+        TemplateError: with all that is wrong with the templates, and for a view that cannot be made of the robot.
         ValueError: for a value of an option that is not one of its choices.
 
     """
+    from linkforge_compile.formats.deferred_view import DeferredView
+
     require_options(options)
-    return templates.render({"robot": robot} | {one.name: one.view(robot, options) for one in FORMATS}, banner)
+    views = {one.name: DeferredView(partial(one.view, robot, options)) for one in FORMATS}
+    return templates.render({"robot": robot, **views}, banner)

@@ -84,6 +84,9 @@ class Format(ABC):
     files: tuple[str, ...] = ()
     """The paths of its documents below its folder; empty for a format of a single file. It makes all for any robot."""
 
+    share_folder: str = "config"
+    """The folder of a ROS package into which its files are installed; empty for the package's own."""
+
     description: str
     """One line for the help."""
 

@@ -25,13 +25,14 @@ class Node(NamedTuple):
 
 
 class KinematicTree(NamedTuple):
-    """The links of a robot, each before those below it, depth first; `below` has the joints by parent.
+    """The links of a robot, each before those below it, depth first.
 
-    A joint to a link that has one already is left out. The world is no body, so it is not among the nodes that hold
-    others.
+    `above` has the joint that holds a link, `below` the joints by parent. A joint to a link that has one already is
+    left out. The world is no body, so it is not among the nodes that hold others.
     """
 
     nodes: Sequence[Node]
+    above: Mapping[str, Joint]
     below: Mapping[str, Sequence[Joint]]
 
     @classmethod
@@ -46,7 +47,7 @@ class KinematicTree(NamedTuple):
             for joint in reversed(below.get(node.link.name, ())):
                 if above[joint.child] is joint and robot.has_link(joint.child):
                     open_nodes.append(Node(robot.links[joint.child], joint, depth))
-        return cls(nodes, below)
+        return cls(nodes, above, below)
 
     def depth(self) -> int:
         """Return how many bodies are inside each other at most."""
@@ -58,3 +59,10 @@ class KinematicTree(NamedTuple):
         for name in held:
             yield name
             held += [joint.child for joint in self.below.get(name, ()) if joint.type == JointType.FIXED]
+
+    def fixed_to(self, link: str) -> Iterator[str]:
+        """Yield the links that one fixed joint parts from a link, the one above it first."""
+        joint = self.above.get(link)
+        if joint and joint.type == JointType.FIXED:
+            yield joint.parent
+        yield from (joint.child for joint in self.below.get(link, ()) if joint.type == JointType.FIXED)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.roots import exists
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -31,12 +32,14 @@ def find_file(robot: Robot, resource: str) -> Path | None:
     """Return the absolute path of a file that a robot refers to, such as a texture; None for one that is not found."""
     spec = robot.source.span.file.path if robot.source else None
     folder = spec.parent if spec else None
+    if folder and is_relative(resource) and not exists(folder / resource):
+        return None  # the resolver looks in the working folder as well, where no reader of the output does
     try:
         return Path(os.path.normpath(robot.resource_resolver.resolve(resource, relative_to=folder)))
     except (OSError, ValueError):  # ValueError: a name that no file can have
         return None
 
 
-def is_relative(mesh: Mesh) -> bool:
+def is_relative(resource: str) -> bool:
     """Whether the path of a mesh starts at the folder of the file that contains it."""
-    return "://" not in mesh.resource and not Path(mesh.resource).is_absolute()
+    return not (resource.startswith("package:") or "://" in resource or Path(resource).is_absolute())

@@ -1,4 +1,4 @@
-"""Relative paths of meshes, which are relative to the URDF, wherever that is written."""
+"""Relative paths of meshes, which are relative to the output, wherever that is written."""
 
 from __future__ import annotations
 
@@ -16,11 +16,16 @@ _SHOWN = 3
 
 
 def check_relative_mesh_paths(
-    robot: Robot, folder: Path, code: Code = MESH_BESIDE_THE_SPEC, *, start: Path | None = None
+    robot: Robot,
+    folder: Path,
+    code: Code = MESH_BESIDE_THE_SPEC,
+    *,
+    start: Path | None = None,
+    document: str = "URDF",
 ) -> Iterator[Diagnostic]:
     """Yield one warning about relative paths of meshes that exist next to the robot's file but not from `folder`.
 
-    `folder` is where the other file with the same paths is written: the URDF of a spec, or the spec of a URDF, by
+    `folder` is where the other file with the same paths is written: the `document` of a spec, or the spec of a URDF, by
     `code`. A mesh that is in neither place is reported as missing elsewhere. `start` is where the paths of a robot
     without a file start, None if that is not known.
     """
@@ -38,7 +43,7 @@ def check_relative_mesh_paths(
         notes = [Note(f"nor '{mesh.resource}'", mesh.source.at("file") if mesh.source else None) for mesh in others]
         more = [Note(f"nor {len(others) - _SHOWN} more")] if len(others) > _SHOWN else []
         back = Path(os.path.relpath(start)).as_posix()
-        facts = {"path": first.resource, "folder": folder.as_posix(), "back": back}
+        facts = {"path": first.resource, "folder": folder.as_posix(), "back": back, "document": document}
         yield code.at(first.source, "file", notes=notes[:_SHOWN] + more, **facts)
 
 
@@ -48,7 +53,7 @@ def _relative_meshes(robot: Robot) -> dict[str, Mesh]:
     geometries += [collision.geometry for link in links for collision in link.collisions]
     meshes = (geometry for geometry in geometries if isinstance(geometry, Mesh))
     first: dict[str, Mesh] = {}
-    for mesh in filter(is_relative, meshes):
+    for mesh in (mesh for mesh in meshes if is_relative(mesh.resource)):
         first.setdefault(mesh.resource, mesh)
     return first
 

@@ -1,4 +1,4 @@
-"""Renders a robot: the functions for scripts, as URDF, SRDF, and by templates of one's own."""
+"""Renders a robot: the functions for scripts, to any format, to URDF and SRDF, and by templates of one's own."""
 
 from __future__ import annotations
 
@@ -6,10 +6,63 @@ from pathlib import Path
 
 # Not for types alone: `typing.get_type_hints` of these functions needs it.
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.formats import SRDF, URDF, render_documents
-from linkforge_compile.formats.format import Rendering
+from linkforge_compile.formats import SRDF, URDF, format_named, render_documents, require_options
+from linkforge_compile.formats.format import NO_OPTIONS, Options, Rendering
 from linkforge_compile.formats.source_map import Mapped
 from linkforge_compile.formats.urdf import Gazebo
+
+
+def render(
+    robot: Robot,
+    format_: str,
+    /,
+    *,
+    options: Options = NO_OPTIONS,
+    pretty: bool = True,
+    banner: str | None = None,
+    templates: str | Path | None = None,
+) -> str:
+    """Return the robot in a format of a single file, by the name that `linkforge formats` lists.
+
+    `options` are those of the format, such as `{"base": "free"}`, and the other words those of `render_urdf`. What the
+    format cannot hold is left out; `compile_file(..., formats=["mjcf"])` reports it.
+
+    Raises:
+        RobotGeneratorError: for a robot that the format cannot hold.
+        TemplateError: for what is wrong with one of `templates`.
+        ValueError: for an unknown format, one of several files, and an unknown option or value.
+
+    """
+    texts = render_files(robot, format_, options=options, pretty=pretty, banner=banner, templates=templates)
+    if len(texts) > 1:
+        raise ValueError(f"{format_} is {len(texts)} files; render_files returns them")
+    return next(iter(texts.values()))
+
+
+def render_files(
+    robot: Robot,
+    format_: str,
+    /,
+    *,
+    options: Options = NO_OPTIONS,
+    pretty: bool = True,
+    banner: str | None = None,
+    templates: str | Path | None = None,
+) -> dict[str, str]:
+    """Return the files of the robot in a format of one file or several, by their paths in a folder, as `render` does.
+
+    The names are those of `linkforge compile --format FORMAT -o FOLDER/` with the robot's name: `arm.mjcf`.
+
+    Raises:
+        RobotGeneratorError: for a robot that the format cannot hold.
+        TemplateError: for what is wrong with one of `templates`.
+        ValueError: for an unknown format, and for an unknown option or value.
+
+    """
+    chosen = format_named(format_)
+    require_options(options)
+    documents = chosen.render(robot, Rendering(options, pretty, banner, templates))
+    return {f"{robot.name}{chosen.suffix}{one.name and f'/{one.name}'}": one.text for one in documents}
 
 
 def render_urdf(
@@ -77,12 +130,12 @@ def render_templates(
 ) -> dict[str, str]:
     """Return what each template at the top of a folder makes of the robot, by its name without `.j2`.
 
-    Templates see the robot as `robot`, its URDF and SRDF as `urdf` and `srdf`, and `banner`. They run in a sandbox.
+    Templates see the robot as `robot`, what each format's templates see under the name of the format, such as `urdf`,
+    `srdf` and `mjcf`, and `banner`. They run in a sandbox.
     A link among them leads within the folder's repository, unless `allow_outside` lets it lead anywhere.
 
     Raises:
-        TemplateError: with all that is wrong with the templates.
-        RobotGeneratorError: for a robot whose text XML cannot hold.
+        TemplateError: with all that is wrong with the templates, and for a robot whose text XML cannot hold.
         OSError: for a folder that cannot be read.
         ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
 

@@ -7,6 +7,7 @@ makes a piece of a document would have to hand it on otherwise.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -65,6 +66,17 @@ class Origins:
     def places(self) -> tuple[Provenance, ...]:
         """The places in the order of their numbers."""
         return tuple(self._numbers)
+
+
+_ORIGIN = re.compile(rf' {RESERVED}at[^\s=]*="(\d+)"')
+
+
+def split_origins(text: str) -> Iterator[tuple[str, int | None]]:
+    """Yield the pieces of a text between the attributes of `origin_of`, each with the number before it, if any."""
+    first, *noted = _ORIGIN.split(text)
+    yield first, None
+    for number, rest in zip(noted[::2], noted[1::2], strict=True):
+        yield rest, int(number)
 
 
 _ACTIVE: ContextVar[Origins | None] = ContextVar("_ACTIVE", default=None)

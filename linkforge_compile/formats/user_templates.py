@@ -17,6 +17,7 @@ from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.formats import NOT_XML_FROM_TEMPLATE, TEMPLATE_FAILS, UNUSED_TEMPLATE
 from linkforge_compile.diagnostics.codes.modules import BEYOND_LIMIT
+from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.sandbox import FolderEnvironment
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError
@@ -96,7 +97,7 @@ class TemplateFolder:
             return
         found = sorted(path.relative_to(self.folder).as_posix() for path in islice(self.folder.rglob("*"), _MOST_FILES))
         near = next((f"; '{name}' is like '{own}'" for name in found if (own := nearest(name, own_names()))), "")
-        folders = " or ".join(f"{folder}/" for folder in own_folders())
+        folders = alternatives([f"{folder}/" for folder in own_folders()])
         has = f"NAME.j2 for a document, nor {folders} with a template that overrides one of linkforge's"
         raise ValueError(f"it has no {has}{near}")
 
@@ -119,7 +120,6 @@ class TemplateFolder:
         """Render all documents and return their texts by name; XML is laid out as URDF is.
 
         Raises:
-            RobotGeneratorError: for a robot whose text XML cannot hold.
             TemplateError: with all that is wrong, one fault a document.
 
         """
@@ -135,7 +135,7 @@ class TemplateFolder:
                 if is_xml(template):
                     texts[name] = f"{self.xml(template, context, pretty=True)}\n"
                 else:
-                    texts[name] = without_marks(self._text(template, context))
+                    texts[name] = without_marks(self.text(template, context))
             except TemplateError as error:
                 faults += error.diagnostics
                 if self._budget.is_spent:
@@ -154,7 +154,7 @@ class TemplateFolder:
         from linkforge_compile.formats.template_faults import find_xml_fault
         from linkforge_compile.formats.xml_document import parse_rendered, write
 
-        rendered = self._text(template, context).lstrip()
+        rendered = self.text(template, context).lstrip()
         if fault := find_xml_fault(rendered):
             line = self._loader.place_of_line(template, fault.line)
             raise TemplateError((NOT_XML_FROM_TEMPLATE.at(line, problem=fault.problem),))
@@ -163,7 +163,13 @@ class TemplateFolder:
         except RobotGeneratorError as error:
             raise TemplateError((TEMPLATE_FAILS.at(self._loader.place_of(template), reason=error),)) from None
 
-    def _text(self, template: str, context: Mapping[str, object]) -> str:
+    def text(self, template: str, context: Mapping[str, object]) -> str:
+        """Render a template and return its text, not laid out.
+
+        Raises:
+            TemplateError: for what is wrong with it.
+
+        """
         try:
             return self._environment.text_of(template, context)
         # A template may raise whatever Python can: each is a fault of the template.

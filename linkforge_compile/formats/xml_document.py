@@ -13,7 +13,7 @@ from math import inf
 from typing import TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
-from linkforge_compile.formats.source_map import Mapped, Origins, Segment, SourceMap
+from linkforge_compile.formats.source_map import Mapped, Origins, Segment, SourceMap, split_origins
 from linkforge_compile.formats.xml_text import KEEPS_SPACE, RESERVED, escaped, is_xml_blank
 from linkforge_compile.source.xml_tree import ATTRIBUTE
 
@@ -28,7 +28,6 @@ _BREAK_IN_TAG = re.compile(r"""(?P<value>"[^"]*"|'[^']*')|\s*\n\s*""")
 _TAG = re.compile(r"<([^\s/>]*)")
 
 _INSIDE, _ATTRIBUTES = f"{RESERVED}inside", f"{RESERVED}attributes"
-_ORIGIN = re.compile(rf' {RESERVED}at[^\s=]*="(\d+)"')
 
 
 class InsideError(RobotGeneratorError):
@@ -271,13 +270,11 @@ def write_with_map(document: XmlNode, origins: Origins) -> Mapped:
         line = INDENT * depth
         segments: list[Segment] = []
         for piece in pieces:
-            text, *noted = _ORIGIN.split(piece) if piece[0] == "<" and piece[1] != "!" else (piece,)
-            line += text
-            for number, rest in zip(noted[::2], noted[1::2], strict=True):
-                place = places[int(number)]
-                if not segments or segments[-1].place != place:
+            for text, number in split_origins(piece) if piece[0] == "<" and piece[1] != "!" else ((piece, None),):
+                place = None if number is None else places[number]
+                if place is not None and (not segments or segments[-1].place != place):
                     segments.append(Segment(len(line) + 1 if segments else 1, place))
-                line += rest
+                line += text
         if is_end:
             own = around[depth]
         else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, NotRequired, TypedDict, TypeVar
+from typing import Any, NotRequired, TypeAlias, TypedDict, TypeVar
 
 from linkforge_compile.core.fields import (
     Child,
@@ -20,17 +20,20 @@ from linkforge_compile.core.fields import (
     Text,
     Vector,
     field_specs,
+    key_fields,
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
 from linkforge_compile.core.part import Element, FreePart, Inside, Part, RawXml
 from linkforge_compile.diagnostics.codes.model import ATTRIBUTE_OF_OWNER, LIST_IN_LIST
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
+from linkforge_compile.lower.object_context import report_duplicate
 from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import FieldUnit, Motion
 
 P = TypeVar("P", bound=Part)
+E = TypeVar("E", bound=Element)
 
 
 def lower_element(
@@ -73,9 +76,60 @@ def lower_fields(
     return values
 
 
-def lower_each(kind: type[P], fields: Fields, key: str, noun: str) -> dict[str, P | None]:
-    """Read the elements in a map by their names, None for a faulty one; messages call them by `noun` and name."""
-    return dict(fields.each(key, noun, lambda each, name: lower_element(kind, each, name=name)))
+Lower: TypeAlias = Callable[..., E | None]
+"""A function that reads an element of a class from an object, given the names that are keys around it, by field."""
+
+
+def lower_children(kind: type[E], fields: Fields, key: str, lower: Lower[E] = lower_element) -> Iterator[E]:
+    """Yield the elements under a key, without the faulty ones.
+
+    They are in a map by name, in a map of maps by two names, in a list, or in a list of their names only.
+    """
+    names, node = key_fields(kind), fields.get(key)
+    if len(names) == 2:
+        for outer, entry in fields.nested(key):
+            yield from _lower_entry(kind, fields, entry, lower, **dict(zip(names, (outer, entry.key), strict=True)))
+    elif kind.SHORT_FORM:
+        section = fields.map(key)
+        for entry in section.node if section else ():
+            yield from _lower_entry(kind, fields, entry, lower, **{names[0]: entry.key})
+    elif isinstance(node, YamlMap):
+        noun = kind.TAG.replace("_", " ")
+        named = fields.each(key, noun, lambda each, name: lower(kind, each, **{names[0]: name}))
+        yield from (child for _, child in named if child)
+    else:
+        yield from _lower_items(kind, fields, key, lower)
+
+
+def _lower_entry(kind: type[E], fields: Fields, entry: YamlEntry, lower: Lower[E], **names: YamlScalar) -> Iterator[E]:
+    """Read an element that may be in its short form; the `names` around it become fields of the object."""
+    texts = {name: node.text for name, node in names.items()}
+    owner, short = kind.TITLE.format(**texts), kind.SHORT_FORM
+    if isinstance(entry.value, YamlMap):
+        item = fields.arranged(owner, entry.key, *entry.value, **names)
+    elif is_absent(entry.value) and field_specs(kind)[short].example:
+        return
+    else:
+        item = fields.arranged(owner, entry.key, **names, **{short: entry.value})
+    if child := lower(kind, item, **texts):
+        yield child
+
+
+def _lower_items(kind: type[E], fields: Fields, key: str, lower: Lower[E]) -> Iterator[E]:
+    """Read elements from a list; an item that is no map is the name of one."""
+    names, first = key_fields(kind), dict[str, SourceRef]()
+    for node in fields.items(key):
+        if isinstance(node, YamlMap) or not names:
+            item = fields.map_at(node, key)
+            if item and (child := lower(kind, item)):
+                yield child
+            continue
+        item, name = fields.arranged(key, node, **{names[0]: node}), fields.text_at(node, key)
+        if name is not None and name in first:
+            report_duplicate(fields.sink, kind.TAG.replace("_", " "), name, item.ref, first[name])
+        elif name is not None and (child := lower(kind, item, **{names[0]: name})):
+            first[name] = item.ref
+            yield child
 
 
 def lower_pose(fields: Fields, key: str = "origin") -> Transform:
@@ -146,14 +200,8 @@ def _noise(spec: Noise, key: str, fields: Fields, _motion: Motion, _unit: FieldU
     return lower_element(kind, noise, **values)
 
 
-def _children(spec: Children, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Part]:
-    kind: type[Element] = spec.kinds[0]
-    if isinstance(fields.get(key), YamlMap):
-        children = [*lower_each(kind, fields, key, kind.TAG).values()]
-    else:
-        items = [fields.map_at(node, key) for node in fields.items(key)]
-        children = [lower_element(kind, item) for item in items if item]
-    return [child for child in children if child]
+def _children(spec: Children, key: str, fields: Fields, _motion: Motion, _unit: FieldUnit | None) -> list[Element]:
+    return list(lower_children(spec.kinds[0], fields, key))
 
 
 def _parameters(

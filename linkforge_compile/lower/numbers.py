@@ -45,6 +45,10 @@ _WORDS = {
     Dimension.ANGULAR_VELOCITY: ("an angular velocity", "90 deg/s"),
     Dimension.DENSITY: ("a density", "2700 kg/m^3"),
     Dimension.INERTIA: ("a moment of inertia", "0.01 kg*m^2"),
+    Dimension.ACCELERATION: ("an acceleration", "0.5 m/s^2"),
+    Dimension.ANGULAR_ACCELERATION: ("an angular acceleration", "180 deg/s^2"),
+    Dimension.JERK: ("a jerk", "5 m/s^3"),
+    Dimension.ANGULAR_JERK: ("an angular jerk", "1000 deg/s^3"),
 }
 """The name of each dimension in messages, and an example of a value."""
 

@@ -9,20 +9,15 @@ from graphlib import CycleError, TopologicalSorter
 from operator import attrgetter
 from typing import NamedTuple, TypeAlias, TypeVar
 
-from linkforge_compile.core.fields import NOT_NEGATIVE
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
-    EndEffector,
     GroupState,
     JointProperty,
     LinkSphereApproximation,
-    PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
     SrdfSphere,
-    VirtualJoint,
 )
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_GROUP,
@@ -32,18 +27,24 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_STATE,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
-from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, is_absent, lower_each, lower_element
+from linkforge_compile.lower.elements import (
+    EXTRA_KEYS,
+    extras_of,
+    is_absent,
+    lower_children,
+    lower_element,
+    lower_fields,
+)
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import position_type
-from linkforge_compile.lower.numbers import LENGTH, NumberType
-from linkforge_compile.lower.object_context import report_duplicate
-from linkforge_compile.source import SourceRef
-from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
-from linkforge_compile.units import Dimension, parse_quantity, unit_text
+from linkforge_compile.lower.numbers import LENGTH
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null
+from linkforge_compile.units import parse_quantity, unit_text
 
 T = TypeVar("T")
 
-_RADIUS = NumberType((Dimension.LENGTH,), NOT_NEGATIVE)
+_MEMBERS = ("chain", "chains", "links", "joints", "subgroups")
+"""The keys of the members of a group."""
 
 
 class LoweredSemantic(NamedTuple):
@@ -59,23 +60,21 @@ def lower_semantic(file: Fields) -> LoweredSemantic | None:
     semantic = file.map("semantic")
     if semantic is None:
         return None
-    groups = dict(semantic.each("groups", "group", _lower_group))
-    effectors = lower_each(EndEffector, semantic, "end_effectors", "end effector")
-    virtual_joints = lower_each(VirtualJoint, semantic, "virtual_joints", "virtual joint")
-    description = SemanticRobotDescription(
-        virtual_joints=[joint for joint in virtual_joints.values() if joint],
-        groups=[group for group in groups.values() if group],
-        end_effectors=[effector for effector in effectors.values() if effector],
-        passive_joints=tuple(_lower_passive_joints(semantic)),
-        disabled_collisions=tuple(_lower_collision_pairs(semantic, "disabled_collisions")),
-        enabled_collisions=tuple(_lower_collision_pairs(semantic, "enabled_collisions")),
-        no_default_collision_links=semantic.names("no_default_collision_links"),
-        link_sphere_approximations=tuple(_lower_sphere_approximations(semantic)),
-        joint_properties=tuple(_lower_joint_properties(semantic)),
-        **extras_of(semantic),
-    ).with_source(semantic.ref)
-    faulty = [name for name, part in (*groups.items(), *virtual_joints.items()) if part is None]
-    return LoweredSemantic(description, tuple(written_states(semantic)), frozenset(faulty))
+    _report_pairs_of_one_link(semantic)
+    description = lower_element(
+        SemanticRobotDescription,
+        semantic,
+        groups=[*lower_children(PlanningGroup, semantic, "groups", _lower_group)],
+        group_states=(),
+        link_sphere_approximations=[
+            *lower_children(LinkSphereApproximation, semantic, "link_sphere_approximations", _lower_approximation)
+        ],
+        joint_properties=[*lower_children(JointProperty, semantic, "joint_properties", _lower_property)],
+    )
+    assert description is not None, "no field of it is required"
+    names = {*semantic.node.section("groups"), *semantic.node.section("virtual_joints")}
+    lowered = {*(group.name for group in description.groups), *(joint.name for joint in description.virtual_joints)}
+    return LoweredSemantic(description, tuple(written_states(semantic)), frozenset(names - lowered))
 
 
 def group_by_name(semantic: SemanticRobotDescription) -> SemanticRobotDescription:
@@ -99,92 +98,53 @@ def _grouped(members: Iterable[T], name_of: Callable[[T], str]) -> tuple[T, ...]
     return tuple(member for group in by_name.values() for member in group)
 
 
-def _lower_group(fields: Fields, name: str) -> PlanningGroup | None:
-    keys = ("chain", "chains", "links", "joints", "subgroups")
-    chain_fields = [fields.map_at(node, "chain") for key in keys[:2] for node in fields.items(key)]
-    chains = [chain for each in chain_fields if each and (chain := lower_element(Chain, each))]
-    links, joints, subgroups = fields.names("links"), fields.names("joints"), fields.names("subgroups")
-    if not any(fields.items(key) for key in keys):
+def _lower_group(kind: type[PlanningGroup], fields: Fields, name: str) -> PlanningGroup | None:
+    """Read a group; its `chain` may be a list, and `chains` a single one."""
+    if not any(fields.items(key) for key in _MEMBERS):
         fields.report_incomplete(EMPTY_GROUP, group=name)
         return None
-    if not (chains or links or joints or subgroups):
+    chain_fields = [fields.map_at(node, "chain") for key in _MEMBERS[:2] for node in fields.items(key)]
+    chains = [chain for each in chain_fields if each and (chain := lower_element(Chain, each))]
+    values = lower_fields(kind, fields, name=name, chains=chains)
+    if not (chains or values["links"] or values["joints"] or values["subgroups"]):
         return None  # all its members are faulty
-    members = (links, joints, chains, subgroups)
-    return fields.build(lambda: PlanningGroup(name, *members, **extras_of(fields)).with_source(fields.ref))
+    return lower_element(kind, fields, **values)
 
 
-def _lower_passive_joints(semantic: Fields) -> Iterator[PassiveJoint]:
-    """Lower passive joints: a map by their names, or a list of names."""
-    if isinstance(semantic.node.get("passive_joints"), YamlMap):
-        named = lower_each(PassiveJoint, semantic, "passive_joints", "passive joint")
-        yield from (joint for joint in named.values() if joint)
-        return
-    first: dict[str, SourceRef] = {}
-    for node in semantic.items("passive_joints"):
-        name = semantic.text_at(node, "passive_joints")
-        item = semantic.arranged("passive_joints", node, name=node)
-        if name is None:
-            continue
-        if name in first:
-            report_duplicate(semantic.sink, "passive joint", name, item.ref, first[name])
-        elif joint := item.build(partial(PassiveJoint, name)):
-            first[name] = item.ref
-            yield joint.with_source(item.ref)
+def _report_pairs_of_one_link(semantic: Fields) -> None:
+    """Report pairs of a link with itself, which their class refuses."""
+    for key in ("disabled_collisions", "enabled_collisions"):
+        for first, entry in semantic.nested(key):
+            if first.text == entry.name:
+                semantic.report(PAIR_WITH_ITSELF, entry.key, link=entry.name)
 
 
-def _lower_collision_pairs(semantic: Fields, key: str) -> Iterator[CollisionPair]:
-    for first, entry in semantic.nested(key):
-        if first.text == entry.name:
-            semantic.report(PAIR_WITH_ITSELF, entry.key, link=entry.name)
-            continue
-        item = _long_form(semantic, "collision pair", entry, "reason", link1=first, link2=entry.key)
-        if pair := lower_element(CollisionPair, item, link1=first.text, link2=entry.name):
-            yield pair
+def _lower_approximation(
+    kind: type[LinkSphereApproximation], fields: Fields, link: str
+) -> LinkSphereApproximation | None:
+    items = [fields.map_at(node, "sphere") for node in fields.items("spheres")]
+    return lower_element(kind, fields, link=link, spheres=[sphere for item in items if (sphere := _lower_sphere(item))])
 
 
-def _lower_sphere_approximations(semantic: Fields) -> Iterator[LinkSphereApproximation]:
-    section = semantic.map("link_sphere_approximations")
-    for entry in section.node if section else ():
-        item = _long_form(semantic, f"sphere approximation of link '{entry.name}'", entry, "spheres", link=entry.key)
-        spheres = [sphere for node in item.items("spheres") if (sphere := _lower_sphere(item, node))]
-        if approximation := lower_element(LinkSphereApproximation, item, link=entry.name, spheres=spheres):
-            yield approximation
-
-
-def _lower_sphere(approximation: Fields, node: YamlNode) -> SrdfSphere | None:
-    sphere = approximation.map_at(node, "sphere")
-    if sphere is None:
+def _lower_sphere(fields: Fields | None) -> SrdfSphere | None:
+    """Read a sphere, whose `center` is three fields of its class."""
+    if fields is None:
         return None
-    center = sphere.vector3("center", LENGTH, required="[0, 0, 0.1]")
-    radius = sphere.number("radius", _RADIUS, required="0.1")
-    if center is None or radius is None:
+    center = fields.vector3("center", LENGTH, required="[0, 0, 0.1]")
+    x, y, z = center or (None, None, None)
+    return lower_element(SrdfSphere, fields, center_x=x, center_y=y, center_z=z)
+
+
+def _lower_property(
+    kind: type[JointProperty], fields: Fields, joint_name: str, property_name: str
+) -> JointProperty | None:
+    """Read a property of a joint; as in a free part, a written null is a text."""
+    node = fields.node.entries.get("value")
+    if node is None or is_absent(node.value):
+        fields.get("value", required="true")
         return None
-    return sphere.build(
-        lambda: SrdfSphere(center.x, center.y, center.z, radius, **extras_of(sphere)).with_source(sphere.ref)
-    )
-
-
-def _lower_joint_properties(semantic: Fields) -> Iterator[JointProperty]:
-    for joint, entry in semantic.nested("joint_properties"):
-        owner = f"property '{entry.name}' of joint '{joint.text}'"
-        item = _long_form(semantic, owner, entry, "value", joint_name=joint, property_name=entry.key)
-        value = item.node.entries.get("value")
-        # As in a free part, a written null is a text.
-        if value is None or is_absent(value.value):
-            if isinstance(entry.value, YamlMap):
-                item.get("value", required="true")
-            continue
-        text = item.text_at(value.value, entry.name)
-        lowered = lower_element(JointProperty, item, joint_name=joint.text, property_name=entry.name, value=text)
-        if lowered:
-            yield lowered
-
-
-def _long_form(semantic: Fields, owner: str, entry: YamlEntry, short_key: str, **ends: YamlNode) -> Fields:
-    """Return an entry as a map that has the names around it as fields, and a value that is no map at `short_key`."""
-    if isinstance(entry.value, YamlMap):
-        return semantic.arranged(owner, entry.key, *entry.value, **ends)
-    return semantic.arranged(owner, entry.key, **ends, **{short_key: entry.value})
+    value = fields.text_at(node.value, property_name)
+    return lower_element(kind, fields, joint_name=joint_name, property_name=property_name, value=value)
 
 
 StateKey: TypeAlias = tuple[str, str]

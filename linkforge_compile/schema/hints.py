@@ -69,7 +69,7 @@ _ANY_OTHER_KEY = (
 FIELDS_IN_ORDER = {
     "a cylinder": ("radius", "length"),
     "a capsule": ("radius", "length"),
-    "a joint's limits": ("lower", "upper", "effort", "velocity"),
+    "a joint's limits": ("lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"),
     "a chain": ("base_link", "tip_link"),
     "an inertia tensor": ("ixx", "iyy", "izz"),
 }

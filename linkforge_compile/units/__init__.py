@@ -1,6 +1,7 @@
 """Quantities, their units, and numbers as text."""
 
 from linkforge_compile.units.quantity import (
+    ACCELERATION,
     ANGLE,
     BARE,
     CONTACT_DAMPING,
@@ -8,6 +9,7 @@ from linkforge_compile.units.quantity import (
     EFFORT,
     FREQUENCY,
     INERTIA,
+    JERK,
     LENGTH,
     LOAD,
     MASS,
@@ -39,6 +41,7 @@ from linkforge_compile.units.table import (
 )
 
 __all__ = [
+    "ACCELERATION",
     "ANGLE",
     "BARE",
     "CONTACT_DAMPING",
@@ -46,6 +49,7 @@ __all__ = [
     "EFFORT",
     "FREQUENCY",
     "INERTIA",
+    "JERK",
     "LENGTH",
     "LOAD",
     "MASS",

@@ -44,7 +44,10 @@ def double_text(value: float) -> str:
 
 
 class Dimension(StrEnum):
-    """What a number measures; the values are the parameter types of the language (inertia is for fields only)."""
+    """What a number measures; the values are the parameter types of the language, but for the last five.
+
+    Inertia, accelerations and jerks are for fields only.
+    """
 
     LENGTH = "length"
     ANGLE = "angle"
@@ -57,6 +60,10 @@ class Dimension(StrEnum):
     ANGULAR_VELOCITY = "angular_velocity"
     DENSITY = "density"
     INERTIA = "inertia"
+    ACCELERATION = "acceleration"
+    ANGULAR_ACCELERATION = "angular_acceleration"
+    JERK = "jerk"
+    ANGULAR_JERK = "angular_jerk"
 
     @property
     def si_unit(self) -> str:
@@ -76,6 +83,10 @@ _SI_UNITS = {
     Dimension.ANGULAR_VELOCITY: "rad/s",
     Dimension.DENSITY: "kg/m^3",
     Dimension.INERTIA: "kg*m^2",
+    Dimension.ACCELERATION: "m/s^2",
+    Dimension.ANGULAR_ACCELERATION: "rad/s^2",
+    Dimension.JERK: "m/s^3",
+    Dimension.ANGULAR_JERK: "rad/s^3",
 }
 
 
@@ -166,4 +177,6 @@ POSITION = FieldUnit(Dimension.ANGLE, Dimension.LENGTH)
 """Of a joint."""
 EFFORT = FieldUnit(Dimension.TORQUE, Dimension.FORCE)
 SPEED = FieldUnit(Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY)
+ACCELERATION = FieldUnit(Dimension.ANGULAR_ACCELERATION, Dimension.ACCELERATION)
+JERK = FieldUnit(Dimension.ANGULAR_JERK, Dimension.JERK)
 DAMPING = FieldUnit(turning_text="N*m*s/rad", sliding_text="N*s/m")

@@ -107,6 +107,14 @@ _TABLE = (
     _unit("g*cm^2", _D.INERTIA, (1, 10_000_000)),
     _unit("kg*mm^2", _D.INERTIA, (1, 1_000_000)),
     _unit("g*mm^2", _D.INERTIA, (1, 1_000_000_000)),
+    _unit("m/s^2", _D.ACCELERATION),
+    _unit("mm/s^2", _D.ACCELERATION, (1, 1000)),
+    _unit("rad/s^2", _D.ANGULAR_ACCELERATION),
+    _unit("deg/s^2", _D.ANGULAR_ACCELERATION, (1, 180), per_pi=True),
+    _unit("m/s^3", _D.JERK),
+    _unit("mm/s^3", _D.JERK, (1, 1000)),
+    _unit("rad/s^3", _D.ANGULAR_JERK),
+    _unit("deg/s^3", _D.ANGULAR_JERK, (1, 180), per_pi=True),
 )
 
 UNITS: dict[str, Unit] = {unit.name: unit for unit in _TABLE}

@@ -16,6 +16,7 @@ from lxml import etree
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.output import write_to_stdout
+from linkforge_compile.formats import FORMATS
 from tests.cli.in_process import linkforge
 
 PENDULUM = """\
@@ -142,6 +143,8 @@ def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulu
     words = ("compile", "rod.robot.yaml", "-o", "build/", "--installed-in")
     assert "LF7006" not in linkforge(*words, ".", cwd=pendulum).stderr
     assert "cannot be found from 'urdf', the URDF's folder" in linkforge(*words, "urdf", cwd=pendulum).stderr
+    told = linkforge("compile", "rod.robot.yaml", "-o", "build/rod.mjcf", cwd=pendulum).stderr
+    assert "the MJCF's folder; write 'package://NAME/PATH', or the MJCF into '.'" in told
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
@@ -410,7 +413,7 @@ def test_diagnostics_that_nothing_reads_change_no_exit_code(pendulum: Path, spec
 def test_an_ending_that_is_no_output_is_refused_and_nothing_is_overwritten(pendulum: Path, output: str):
     run = linkforge("compile", "swing.robot.yaml", "-o", output, cwd=pendulum)
     assert run.returncode == 2
-    assert "ends in .urdf, .srdf, .mjcf, .sdf or .xml" in run.stderr
+    assert f"ends in {', '.join(one.suffix for one in FORMATS if not one.files)} or .xml" in run.stderr
     assert (pendulum / "swing.robot.yaml").read_text() == PENDULUM
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from linkforge_compile.cli.main import main
 from linkforge_compile.cli.output import refuse_to_replace
-from linkforge_compile.cli.targets import targets_of
+from linkforge_compile.cli.targets import name_of
 from tests.meshes import block, save
 from tests.programs import program
 
@@ -273,5 +273,4 @@ def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
     "name", ["cell.robot.yaml", "cell.yaml", "cell.yml", "cell.urdf", "cell.urdf.xacro", "cell.xacro"]
 )
 def test_files_are_named_after_the_spec(name: str):
-    paths = targets_of(f"robots/{name}", ["out/"], ["urdf"]).paths
-    assert paths == {"urdf": Path("out/cell.urdf")}
+    assert name_of(f"robots/{name}") == "cell"

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file, render_templates, render_urdf
+from linkforge_compile.diagnostics.enumerations import alternatives
+from linkforge_compile.formats.user_templates import own_folders
 from tests.cli.in_process import linkforge
 
 SPEC = """\
@@ -123,8 +125,8 @@ def test_a_folder_without_templates_is_refused_in_python_as_by_the_command(folde
     (folder / "other" / "urdf" / "lnik.xml.j2").touch()
     robot = compile_file(folder / "arm.robot.yaml").result()
     reason = (
-        "it has no NAME.j2 for a document, nor urdf/ or srdf/ or sdf/ or mjcf/ with a template that overrides one of "
-        "linkforge's; 'urdf/lnik.xml.j2' is like 'urdf/link.xml.j2'"
+        f"it has no NAME.j2 for a document, nor {alternatives([f'{name}/' for name in own_folders()])} with a template "
+        "that overrides one of linkforge's; 'urdf/lnik.xml.j2' is like 'urdf/link.xml.j2'"
     )
     for render in (render_templates, lambda robot, folder: render_urdf(robot, templates=folder)):
         with pytest.raises(ValueError, match=f"^{re.escape(reason)}$"):
@@ -202,7 +204,7 @@ def test_no_template_is_written_over(folder: Path):
         (("--template", "t", "--source-map", "-o", "out/"), "--source-map cannot be combined with --template"),
         (
             ("--template", "two", "-o", "notes.md"),
-            "-o takes a folder, or a file that ends in .urdf, .srdf, .mjcf, .sdf or",
+            "-o takes a folder, or a file that ends in .urdf, ",
         ),
         (("--template", "t", "--check"), "--check compares with files"),
     ],

@@ -29,7 +29,7 @@ def test_warnings_and_notes_are_selected_and_errors_always_reported(selection: S
 
 
 def test_warnings_are_errors_on_request_and_notes_are_not():
-    told = Selection(ignore=("LF6",), warnings_are_errors=True).of(REPORT)
+    told = Selection(ignore=("LF6",), errors=("LF",)).of(REPORT)
     assert [(one.code.id, one.severity) for one in told] == [
         ("LF5001", Severity.ERROR),
         ("LF5606", Severity.ERROR),
@@ -39,7 +39,7 @@ def test_warnings_are_errors_on_request_and_notes_are_not():
 
 
 def test_quiet_keeps_the_warnings_that_are_errors():
-    told = Selection(warnings_are_errors=True, errors_only=True).of(REPORT)
+    told = Selection(errors=("LF",), errors_only=True).of(REPORT)
     assert [one.code.id for one in told] == ["LF6001", "LF5001", "LF5606"]
 
 

@@ -28,6 +28,7 @@ ROBOT_KEYS = [
     *("modules", "mount", "packages", "parameters", "robot", "ros2_control", "semantic", "sensors", "transmissions"),
     *("variables", "variants", "version"),
 ]
+LIMITS = ["acceleration", "deceleration", "effort", "jerk", "lower", "upper", "velocity"]
 SEMANTIC_KEYS = [
     *("disabled_collisions", "enabled_collisions", "end_effectors", "group_states", "groups", "joint_properties"),
     *("link_sphere_approximations", "no_default_collision_links", "passive_joints", "virtual_joints"),
@@ -99,10 +100,10 @@ OFFERED = {
     "half a joint's type in flow style": ("joints:\n  elbow: {type: rev|}", JOINT_TYPES),
     "an axis": ("joints:\n  elbow:\n    axis: |", ["-x", "-y", "-z", "x", "y", "z"]),
     "a joint's limits": ("joints:\n  elbow:\n    limits: |", ["limits"]),
-    "in limits": ("joints:\n  elbow:\n    limits:\n      |", ["effort", "limits", "lower", "upper", "velocity"]),
+    "in limits": ("joints:\n  elbow:\n    limits:\n      |", sorted([*LIMITS, "limits"])),
     "half a limit in flow style": (
         "joints:\n  elbow: {limits: {lo|}}",
-        ["effort", "limits", "lower", "upper", "velocity"],
+        sorted([*LIMITS, "limits"]),
     ),
     "a flag": ("sensors:\n  front:\n    always_on: |", ["false", "true"]),
     "in a frame": ("frames:\n  tool0: {or|}", ["frame", "joint", "origin", "parent"]),
@@ -198,7 +199,7 @@ OFFERED = {
     ),
     "half a limit of an override in flow style": (
         "modules: {arm: {override: {joints: {elbow: {limits: {lo|}}}}}}",
-        ["effort", "lower", "upper", "velocity"],
+        LIMITS,
     ),
     "half a key of an end effector in flow style": (
         "semantic: {end_effectors: {hand: {pa|}}}",
@@ -227,7 +228,7 @@ IN_EXAMPLES = {
         "01_two_link_arm/two_link_arm",
         "limits: {lower: -120 deg, upper: 120 deg,",
         "limits: {lower: -120 deg, up|,",
-        ["limits", "upper"],
+        ["acceleration", "deceleration", "jerk", "limits", "upper"],
     ),
     "a key of a link": (
         "01_two_link_arm/two_link_arm",

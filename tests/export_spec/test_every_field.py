@@ -178,7 +178,7 @@ def _joint(name: str, parent: str, child: str) -> Joint:
         child,
         POSE,
         Vector3(0, 0, 1),
-        JointLimits(-1, 1, 2, 3, **EXTRAS),
+        JointLimits(-1, 1, 2, 3, acceleration=4, deceleration=5, jerk=6, **EXTRAS),
         JointDynamics(0.1, 0.2, **EXTRAS),
         JointMimic("slide", 2, 0.5, stated=["multiplier"], **EXTRAS),
         JointSafetyController(-0.5, 0.5, 10, 20, **EXTRAS),

@@ -3,6 +3,7 @@
 from lxml import etree
 
 from linkforge_compile import compile_text
+from linkforge_compile.diagnostics.codes.formats import NO_MESSAGES, NO_VELOCITY_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.formats import MJCF, Rendering
 
@@ -10,6 +11,8 @@ HEAD = """linkforge: 1
 name: robot
 x-unit: &unit {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}
 """
+
+USUAL = (NO_VELOCITY_LIMIT.id, NO_MESSAGES.id)
 
 
 def compiled(text: str):
@@ -23,5 +26,10 @@ def document(text: str, **options: str) -> etree._Element:
 
 
 def reported(text: str, **options: str) -> list[str]:
+    """Return the codes and messages of a spec's MJCF, grouped as a report has them, without what most robots have."""
+    return [one for one in every_report(text, **options) if not one.startswith(USUAL)]
+
+
+def every_report(text: str, **options: str) -> list[str]:
     """Return the codes and messages of a spec's MJCF, grouped as a report has them."""
     return [f"{one.code.id} {one.message}" for one in group_alike(MJCF.limits(compiled(text), options))]

@@ -30,6 +30,7 @@ def test_every_format_is_in_the_table():
         ("srdf", ".srdf"),
         ("mjcf", ".mjcf"),
         ("sdf", ".sdf"),
+        ("joint_limits", "_joint_limits.yaml"),
     ]
 
 

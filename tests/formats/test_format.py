@@ -7,10 +7,7 @@ import pytest
 
 from linkforge_compile import formats
 from linkforge_compile.cli.main import main
-from linkforge_compile.diagnostics import Code, Severity
-from linkforge_compile.formats import Document, Format, Option
-from linkforge_compile.formats.source_map import Segment, SourceMap
-from linkforge_compile.source.provenance import Kind, Provenance
+from tests.formats.example_formats import Folder, Joints, Limits
 
 SPEC = """\
 linkforge: 1
@@ -22,48 +19,10 @@ joints:
   elbow: {type: fixed, parent: base, child: rod}
 """
 
-LONG_NAME = Code("LF7999", Severity.WARNING, "'{name}' is longer than {length} characters")
-
-
-class Joints(Format):
-    """The joints of a robot, one a line, as text."""
-
-    name = "joints"
-    suffix = ".joints"
-    description = "the names of the joints"
-    keeps = "the names of the joints"
-    loses = "all else"
-    options = (Option("case", ("lower", "upper"), "lower", "the case of the names"),)
-
-    def render(self, robot, rendering):
-        case = getattr(str, self.options[0].value(rendering.options))
-        text = "".join(f"{case(joint.name)}\n" for joint in robot.joints)
-        places = [Provenance(Kind.WRITTEN, joint.source.span) for joint in robot.joints]
-        source_map = SourceMap(tuple((Segment(1, place),) for place in places))
-        return (Document(text, map=source_map if rendering.has_map else None),)
-
-    def limits(self, robot, options):
-        for joint in robot.joints:
-            yield LONG_NAME.at(joint.source, name=joint.name, length=4)
-
-
-class Folder(Format):
-    """Two files for a robot with joints."""
-
-    name = "folder"
-    suffix = "_config"
-    files = ("config/joints.txt", "links.txt")
-    description = "a folder of files"
-    keeps = "nothing"
-    loses = "everything"
-
-    def render(self, robot, rendering):
-        return tuple(Document(f"{name}\n", name) for name in self.files)
-
 
 @pytest.fixture(autouse=True)
 def spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, Joints(), Folder()))
+    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, Joints(), Folder(), Limits()))
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "arm.robot.yaml"
     path.write_text(SPEC)
@@ -79,9 +38,10 @@ def test_the_help_describes_it(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["compile", "--help"])
     words = " ".join(capsys.readouterr().out.split())
-    assert "{urdf,srdf,mjcf,sdf,joints,folder}" in words
+    assert f"{{{','.join(one.name for one in formats.FORMATS)}}}" in words
     assert "joints: the names of the joints" in words
-    assert "a file that ends in .urdf, .srdf, .mjcf, .sdf, .joints or .xml" in words
+    endings = [one.suffix for one in formats.FORMATS if not one.files]
+    assert f"a file that ends in {', '.join(endings)} or .xml" in words
     assert "--case {lower,upper}" in words
 
 
@@ -105,6 +65,25 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
         assert "LF7999" not in capsys.readouterr().err
     assert main(["compile", "arm.robot.yaml", "-o", "a.joints"]) == 0
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
+
+
+def test_strict_fails_on_what_it_cannot_hold_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    words = ["compile", "arm.robot.yaml", "-o", "a.joints", "--strict"]
+    assert main(words) == 1
+    assert "arm.robot.yaml:7:3: error: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
+    assert not (tmp_path / "a.joints").exists()
+    Path("arm.robot.yaml").write_text(SPEC.replace("  elbow:", "  # linkforge: ignore LF7999\n  elbow:"))
+    assert main(words) == 0
+    assert (tmp_path / "a.joints").exists()
+
+
+def test_strict_leaves_warnings_about_the_robot_as_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(
+        SPEC.replace("  base:", "  base: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 5}}}")
+    )
+    assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "--strict"]) == 0
+    assert "warning: " in capsys.readouterr().err
+    assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "--werror"]) == 1
 
 
 def test_deps_depfile_and_check_know_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
@@ -138,3 +117,39 @@ def test_several_files_lie_below_their_target(tmp_path: Path, capsys: pytest.Cap
     assert main(["compile", *arguments, "--check"]) == 1
     assert main(["compile", "arm.robot.yaml", "--format", "folder"]) == 2
     assert "folder is 2 files, and standard output takes one" in capsys.readouterr().err
+
+
+def test_a_suffix_may_have_an_ending_that_other_files_have(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["compile", "arm.robot.yaml", "-o", "arm_limits.yaml"]) == 0
+    assert main(["compile", "arm.robot.yaml", "-o", "out/", "--format", "limits", "--name", "left"]) == 0
+    assert main(["compile", "arm.robot.yaml", "-o", "any.yaml", "--format", "limits"]) == 0
+    texts = [(tmp_path / name).read_text() for name in ("arm_limits.yaml", "out/left_limits.yaml", "any.yaml")]
+    assert texts == ["elbow: 0\n"] * 3
+    capsys.readouterr()
+    assert main(["compile", "arm.robot.yaml", "-o", "any.yaml"]) == 2
+    assert "or a file that ends in .urdf, " in capsys.readouterr().err
+    assert main(["compile", "arm.robot.yaml", "-o", "arm.robot.yaml", "--format", "limits"]) == 2
+    assert "'arm.robot.yaml' would be replaced, and the robot is made from it" in capsys.readouterr().err
+
+
+def test_outputs_have_the_name_that_is_given(tmp_path: Path):
+    words = ["compile", "arm.robot.yaml", "-o", "out/", "--name", "a/left"]
+    assert main([*words, "--format", "folder", "--format", "urdf"]) == 0
+    files = {path.relative_to(tmp_path / "out").as_posix() for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert files == {"a/left.urdf", "a/left_config/links.txt", "a/left_config/config/joints.txt"}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--name", "left"], "--name is for the files in a folder, so it takes -o FOLDER/"),
+        (["--name", "left", "-o", "a.urdf"], "--name is for the files in a folder, so it takes -o FOLDER/"),
+        (["--name", "", "-o", "out/"], "--name takes the name of files without their ending, found ''"),
+        (["--name", "../a", "-o", "out/"], "--name takes the name of files without their ending, found '../a'"),
+        (["--name", "left", "-o", "out/", "arm.robot.yaml"], "--name is for the outputs of one spec, found 2 specs"),
+    ],
+)
+def test_a_name_that_cannot_be_given_is_reported(words: list[str], message: str, capsys: pytest.CaptureFixture[str]):
+    Path("b.robot.yaml").write_text(SPEC)
+    assert main(["compile", "b.robot.yaml", *words]) == 2
+    assert message in capsys.readouterr().err

@@ -49,6 +49,7 @@ def test_a_joint_has_its_range_damping_and_friction():
         "range": "-1 2",
         "damping": "0.5",
         "frictionloss": "0.25",
+        "actuatorfrcrange": "-5 5",
     }
 
 
@@ -221,6 +222,17 @@ def test_meshes_of_packages_are_files_below_one_folder(tmp_path: Path):
     assert '<mesh name="part" file="arm/meshes/part.stl"/>' in text
     assert '<mesh name="part_2" file="hand/meshes/part.stl"/>' in text
     assert mjcf_model(robot).nmesh == 2
+
+
+def test_a_relative_mesh_of_the_working_folder_alone_is_not_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    (tmp_path / "robots").mkdir()
+    (tmp_path / "part.stl").write_bytes(triangles(4))
+    monkeypatch.chdir(tmp_path)
+    robot = compiled_in(tmp_path / "robots", "links: {base: {visual: {mesh: part.stl}}}")
+    assert [one.message for one in MJCF.limits(robot, {})] == [
+        "mesh 'part.stl' is left out of the MJCF: the file is not found"
+    ]
+    assert mjcf_model(robot).ngeom == 0
 
 
 def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_path: Path):

@@ -5,6 +5,7 @@ import math
 import numpy
 import pytest
 
+from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import compiled, document, reported
 
@@ -50,13 +51,13 @@ def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
     [
         (
             "{position: {kp: 200, kv: 20}}",
-            {"": "position", "ctrlrange": "-1 2", "forcerange": "-5 5", "kp": "200", "kv": "20"},
+            {"": "position", "ctrlrange": "-1 2", "kp": "200", "kv": "20"},
         ),
         (
             "{position: {kp: 9, min: -0.5, max: 1}}",
-            {"": "position", "ctrlrange": "-0.5 1", "forcerange": "-5 5", "kp": "9"},
+            {"": "position", "ctrlrange": "-0.5 1", "kp": "9"},
         ),
-        ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "forcerange": "-5 5", "kv": "8"}),
+        ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "kv": "8"}),
         ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
     ],
 )
@@ -93,6 +94,53 @@ def test_disabled_collisions_and_joints_at_a_static_body_are_exclusions():
     assert elements(ARM, "contact/exclude", base="free") == [], "MuJoCo excludes parents that move by itself"
 
 
+FRAMES = """
+links:
+  base: {collision: {sphere: 0.1}}
+  flange:
+  arm_frame: {inertial: *unit}
+  arm: {collision: {sphere: 0.1}}
+joints:
+  weld: {type: fixed, parent: base, child: flange}
+  turn: {type: continuous, parent: flange, child: arm_frame, axis: [0, 0, 1]}
+  hold: {type: fixed, parent: arm_frame, child: arm}
+"""
+
+
+def test_frames_between_shapes_do_not_make_them_collide():
+    assert contacts(FRAMES) == 0
+    assert [(one["body1"], one["body2"]) for one in elements(FRAMES, "contact/exclude")] == [("arm", "base")]
+    beside = FRAMES.replace("parent: base, child: flange", "parent: flange, child: base")
+    assert contacts(beside) == 0
+
+
+def test_the_world_collides_with_what_moves_in_it():
+    robot = FRAMES.replace("base", "world")
+    assert elements(robot, "contact/exclude") == [], "an exclusion would hold for the ground of a scene, too"
+    assert contacts(robot) == 1
+
+
+def test_links_without_default_collisions_touch_enabled_ones_alone():
+    robot = """
+links: {base: SHAPE, left: SHAPE, right: SHAPE}
+joints:
+  a: {type: floating, parent: base, child: left}
+  b: {type: floating, parent: base, child: right}
+semantic: {no_default_collision_links: [left]}
+""".replace("SHAPE", "{inertial: *unit, collision: {sphere: 1}}")
+    assert contacts(robot) == 1
+    enabled = robot.replace("[left]", "[left], enabled_collisions: {left: {right: }}")
+    assert contacts(enabled) == 2
+
+
+def contacts(text: str) -> int:
+    """Return how many contacts MuJoCo finds in a robot at rest."""
+    model = mjcf_model(compiled(text))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return int(data.ncon)
+
+
 def test_adjacent_links_do_not_collide():
     for base in ("fixed", "free"):
         robot = ARM.replace("base: {", "base: {inertial: *unit, ").replace("xyz: [0.5, 0, 0]", "xyz: [5, 0, 0]")
@@ -122,6 +170,36 @@ def test_a_keyframe_of_a_free_base_begins_with_its_pose():
     robot = ARM.replace("base: {", "base: {inertial: *unit, ") + STATES
     model = mjcf_model(compiled(robot), base="free")
     numpy.testing.assert_array_equal(model.key("ready").qpos, [0, 0, 0, 1, 0, 0, 0, 1, 0])
+
+
+def test_a_virtual_joint_is_the_pose_of_a_free_base():
+    robot = """
+links: {base: {inertial: *unit}, arm: {inertial: *unit}}
+joints: {turn: {type: continuous, parent: base, child: arm, axis: z}}
+semantic:
+  virtual_joints: {floor: {type: floating, parent_frame: world, child_link: base}}
+  groups: {body: {joints: [floor, turn]}}
+  group_states: {body: {stand: {floor: [1, 2, 3, 1, 0, 0, 0], turn: 0.5}}}
+"""
+    key = mjcf_model(compiled(robot), base="free").key("stand")
+    numpy.testing.assert_array_equal(key.qpos, [1, 2, 3, 0, 1, 0, 0, 0.5])
+    assert mjcf_model(compiled(robot)).key("stand").qpos == [0.5]
+
+
+def test_a_joint_that_a_state_leaves_out_is_in_its_range():
+    robot = ARM.replace("lower: 0, upper: 0.5", "lower: 0.25, upper: 0.75") + STATES
+    model = mjcf_model(compiled(robot))
+    numpy.testing.assert_array_equal(model.key("ready").qpos, [1, 0.5])
+
+
+def test_stiff_drives_choose_an_implicit_integrator_which_a_scene_replaces():
+    implicit, explicit = mujoco.mjtIntegrator.mjINT_IMPLICITFAST, mujoco.mjtIntegrator.mjINT_EULER
+    driven = compiled(ARM + CONTROL.replace("SHOULDER", "{position: {kp: 200, kv: 20}}"))
+    assert mjcf_model(compiled(ARM)).opt.integrator == explicit
+    assert mjcf_model(driven).opt.integrator == implicit
+    robot = {"robot.mjcf": MJCF.render(driven, Rendering())[0].text.encode()}
+    scene = '<mujoco><include file="robot.mjcf"/><option integrator="Euler"/></mujoco>'
+    assert mujoco.MjModel.from_xml_string(scene, assets=robot).opt.integrator == explicit
 
 
 def test_a_joint_that_mimics_follows_in_a_keyframe():

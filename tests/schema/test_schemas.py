@@ -45,6 +45,8 @@ QUANTITIES = {
     "position": [Dimension.ANGLE, Dimension.LENGTH],
     "effort": [Dimension.TORQUE, Dimension.FORCE],
     "velocity": [Dimension.ANGULAR_VELOCITY, Dimension.VELOCITY],
+    "acceleration": [Dimension.ANGULAR_ACCELERATION, Dimension.ACCELERATION],
+    "jerk": [Dimension.ANGULAR_JERK, Dimension.JERK],
     "frequency": [Dimension.FREQUENCY],
     "speed": [Dimension.VELOCITY],
 }

@@ -15,12 +15,13 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, progress
+from linkforge_compile.cli.reports import add_report_options, add_strict_option, progress
 from linkforge_compile.cli.specs import SpecReport, find_parts, find_specs_of, is_folder
 from linkforge_compile.cli.targets import (
     Targets,
     add_target_options,
     is_folder_of_outputs,
+    name_of,
     targets_of,
     targets_of_documents,
 )
@@ -38,6 +39,7 @@ examples:
   linkforge compile arm.robot.yaml                      URDF to standard output
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
+  linkforge compile arm.robot.yaml -o build/ --format urdf --format mjcf     these of what `linkforge formats` lists
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
@@ -93,6 +95,7 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
     )
     add_report_options(parser)
+    add_strict_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -121,10 +124,12 @@ def parse_request(arguments: argparse.Namespace) -> BuildRequest:
 def _parse_several(specs: Sequence[str], assignments: list[str], arguments: argparse.Namespace) -> list[BuildRequest]:
     """Return what to build of each spec in each variant; UsageError for options that need a single spec."""
     variants = arguments.variants or [None]
-    if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0]):
+    if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0], arguments.formats):
         found = " ".join(f"-o {output}" for output in arguments.outputs) or "none"
         several = "variants" if len(specs) == 1 and len(variants) > 1 else "specs"
         raise UsageError(f"-o takes one folder for the outputs of several {several}, found {found}")
+    if arguments.name is not None and len(specs) > 1:
+        raise UsageError(f"--name is for the outputs of one spec, found {len(specs)} specs")
     if len(variants) > 1:
         if "-" in specs:
             raise UsageError("several --variant take files, not standard input, which can be read once")
@@ -154,7 +159,7 @@ def _parse_request(
     spec: str, variant: str | None, assignments: list[str], arguments: argparse.Namespace
 ) -> BuildRequest:
     templates = None if arguments.template is None else _template_folder(arguments)
-    targets = _targets(spec, templates, arguments, variant or "" if len(arguments.variants) > 1 else "")
+    targets = _targets(_name(spec, variant, arguments), templates, arguments)
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:
@@ -206,9 +211,27 @@ def _template_folder(arguments: argparse.Namespace) -> TemplateFolder:
     return templates
 
 
-def _targets(spec: str, templates: TemplateFolder | None, arguments: argparse.Namespace, variant: str) -> Targets:
+def _name(spec: str, variant: str | None, arguments: argparse.Namespace) -> str:
+    """Return the name of the outputs of a spec in a folder; that of the variant is part of it if there are several."""
+    if arguments.name is None:
+        name = name_of(spec)
+    else:
+        name = arguments.name
+        if not _may_be_name(name):
+            raise UsageError(f"--name takes the name of files without their ending, found '{name}'")
+        if len(arguments.outputs) != 1 or not is_folder_of_outputs(arguments.outputs[0], arguments.formats):
+            raise UsageError("--name is for the files in a folder, so it takes -o FOLDER/")
+    return f"{name}_{variant}" if variant and len(arguments.variants) > 1 else name
+
+
+def _may_be_name(name: str) -> bool:
+    """Whether a name is that of a file in a folder, or below it."""
+    return bool(name) and not name.endswith("/") and not Path(name).is_absolute() and ".." not in Path(name).parts
+
+
+def _targets(name: str, templates: TemplateFolder | None, arguments: argparse.Namespace) -> Targets:
     if templates is not None and templates.documents and not arguments.formats:
         documents = targets_of_documents(templates.documents, arguments.outputs)
         if documents is not None:
             return documents
-    return targets_of(spec, arguments.outputs, arguments.formats, variant)
+    return targets_of(name, arguments.outputs, arguments.formats)

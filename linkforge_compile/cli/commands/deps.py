@@ -68,7 +68,7 @@ def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[P
     """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
     from linkforge_compile.cli.build import targets_for
 
-    targets = targets_of(spec, outputs or [f"{name_of(spec)}{default_format().suffix}"])
+    targets = targets_of(name_of(spec), outputs or [f"{name_of(spec)}{default_format().suffix}"])
     targets.require_files("a rule of Make", "says what files are made from")
     assert compilation.robot is not None, "a spec without errors has a robot"
     needed, faults = targets_for(compilation.robot, targets)

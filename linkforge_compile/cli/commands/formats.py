@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 Formats marked `default` are written to a folder unless others are requested with --format. What a format loses of a
-robot is reported at its place in the spec.
+robot is reported at its place in the spec; with `linkforge compile --strict`, nothing is written then.
 
 examples:
   linkforge formats             all formats
@@ -41,13 +41,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _named(name: str) -> Format:
-    names = [one.name for one in formats.FORMATS]
-    if name not in names:
-        from linkforge_compile.diagnostics.suggest import did_you_mean
-
-        hint = did_you_mean(name, names) or f"; the formats are {', '.join(names)}"
-        raise UsageError(f"there is no format '{name}'{hint}")
-    return formats.format_named(name)
+    try:
+        return formats.format_named(name)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
 
 
 def _paragraph(one: Format) -> str:
@@ -77,6 +74,8 @@ def _json_text(chosen: Sequence[Format]) -> str:
             "name": one.name,
             "suffix": one.suffix,
             "files": one.files,
+            "share_folder": one.share_folder,
+            "relative_paths": one.has_relative_paths,
             "description": one.description,
             "default": one.is_default,
             "keeps": one.keeps,

@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
             _run_then(arguments)
         print_status(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
         # Outputs that the command of --then removed need not be written again.
-        outputs = [path for path in request.targets.paths.values() if path and path.exists()] if exit_code == OK else []
+        outputs = [path for path in request.targets.files if path.exists()] if exit_code == OK else []
         changed, gone = _wait(watcher, outputs)
         if changed:
             print_status(f"{_listed(changed)} changed", arguments)

@@ -29,7 +29,7 @@ from linkforge_compile.core.fields import (
 from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.naming import require_name, require_valid_characters
 from linkforge_compile.core.part import Element, FrozenMap, dump_like, extras_last
-from linkforge_compile.units import DAMPING, EFFORT, POSITION, SPEED, Motion
+from linkforge_compile.units import ACCELERATION, DAMPING, EFFORT, JERK, POSITION, SPEED, Motion
 
 
 class JointType(StrEnum):
@@ -75,10 +75,11 @@ class JointLimits(Element):
     """How far, how hard and how fast a joint may move: `<limit>`.
 
     `lower` and `upper` are positions [rad], None for no bound on that side, `effort` [N·m], `velocity` [rad/s];
-    for prismatic joints [m], [N], [m/s].
+    for prismatic joints [m], [N], [m/s]. `acceleration`, `deceleration` [rad/s²] and `jerk` [rad/s³], for prismatic
+    joints [m/s²] and [m/s³], are None where they are not known; URDF has them since version 1.2.
 
     Raises:
-        RobotValidationError: OUT_OF_RANGE if lower is above upper, or effort or velocity below 0.
+        RobotValidationError: OUT_OF_RANGE if lower is above upper, or another limit below 0.
         RobotMathError: INVALID_VALUE for NaN or infinity.
 
     """
@@ -107,6 +108,9 @@ class JointLimits(Element):
             is_required_in_urdf=True,
         ),
     ] = DEFAULT_JOINT_VELOCITY
+    acceleration: Annotated[float | None, Number(ACCELERATION, NOT_NEGATIVE)] = field(default=None, kw_only=True)
+    deceleration: Annotated[float | None, Number(ACCELERATION, NOT_NEGATIVE)] = field(default=None, kw_only=True)
+    jerk: Annotated[float | None, Number(JERK, NOT_NEGATIVE)] = field(default=None, kw_only=True)
 
     def _check(self) -> None:
         if self.lower is not None and self.upper is not None and self.lower > self.upper:

@@ -185,6 +185,8 @@ class JointProperty(Element):
     """A remark on a joint that a planner reads: `<joint_property joint_name property_name value>`; none is blank."""
 
     TAG = "joint_property"
+    TITLE = "property '{property_name}' of joint '{joint_name}'"
+    SHORT_FORM = "value"
 
     joint_name: Annotated[str, Reference("joint", key="")]
     property_name: Annotated[str, Text(key="")]
@@ -205,6 +207,9 @@ class CollisionPair(Element):
     `reason` is for people and tools (`Adjacent`, `Never`), None if not given. (a, b) and (b, a) are
     the same pair but not equal; `key` is.
     """
+
+    TITLE = "collision pair"
+    SHORT_FORM = "reason"
 
     link1: Annotated[str, Reference("link", key="")]
     link2: Annotated[str, Reference("link", key="")]
@@ -254,6 +259,8 @@ class LinkSphereApproximation(Element):
     """Spheres, or none, in place of the shape of a link: `<link_sphere_approximation link>`."""
 
     TAG = "link_sphere_approximation"
+    TITLE = "sphere approximation of link '{link}'"
+    SHORT_FORM = "spheres"
 
     link: Annotated[str, Reference("link", key="")]
     spheres: Annotated[Sequence[SrdfSphere], Children()] = ()

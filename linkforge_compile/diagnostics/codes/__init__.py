@@ -5,6 +5,7 @@ LF6 physics and interfaces, LF7 output formats, LF8 import.
 """
 
 from linkforge_compile.diagnostics.codes import (
+    collisions,
     expressions,
     formats,
     importing,
@@ -19,7 +20,7 @@ from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (syntax, schema, modules, expressions, names, model, physics, formats, importing)
+    for family in (syntax, schema, modules, expressions, names, model, physics, formats, collisions, importing)
     for code in vars(family).values()
     if isinstance(code, Code)
 }

@@ -24,8 +24,8 @@ TWO_MATERIALS = Code(
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     _W,
-    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the URDF's "
-    "folder; write 'package://NAME/PATH', or the URDF into '{back}'",
+    "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the {document}'s "
+    "folder; write 'package://NAME/PATH', or the {document} into '{back}'",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
@@ -142,6 +142,28 @@ OPPOSITE_SIGN = Code(
     "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
     subject="sensor",
 )
+TAKEN_IN_MUJOCO = Code(
+    "LF7410", _E, "MuJoCo refuses two {parts} of one name, and '{name}' is the name of {owner} as well; rename this one"
+)
+NO_VELOCITY_LIMIT = Code(
+    "LF7411", _W, "MuJoCo does not limit velocities; the limit of joint '{joint}' is left out", subject="joint"
+)
+NO_MESSAGES = Code(
+    "LF7412",
+    _W,
+    "MuJoCo measures at every step and sends no messages; rate, topic and frame of '{sensor}' are left out",
+    subject="sensor",
+)
+
+# LF76xx: control and planning
+NO_LIMIT_FOR_MOVEIT = Code(
+    "LF7601",
+    _W,
+    "MoveIt plans no motion of '{joint}' without a greatest {limit}; write `{limit}` in its `limits`",
+    subject="joint",
+    grouped_by=("limit",),
+)
+NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: none that turns or slides by itself")
 
 # LF75xx: SDF
 NOT_IN_SDF = Code(

@@ -24,14 +24,15 @@ class Mjcf(TemplateFormat):
 
     name = "mjcf"
     suffix = ".mjcf"
+    share_folder = "mjcf"
     description = "the robot for MuJoCo"
     keeps = (
         "links, joints, inertias, shapes, meshes, mimic joints, command interfaces as actuators, IMUs, force-torque "
         "sensors, cameras, disabled collisions and group states"
     )
     loses = (
-        "velocity limits, safety controllers, transmissions, settings and plugins of Gazebo, other sensors, textures "
-        "of single shapes and raw XML"
+        "velocity limits, messages of sensors, safety controllers, transmissions, settings and plugins of Gazebo, "
+        "other sensors, gpios, textures of single shapes and raw XML"
     )
     has_relative_paths = True
     options = (BASE,)

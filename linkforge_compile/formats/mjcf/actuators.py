@@ -6,16 +6,14 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
-from linkforge_compile.formats.mjcf.joints import is_locked
+from linkforge_compile.formats.mjcf.joints import SINGLE, is_locked, symmetric
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-
-_DRIVEN = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 Range = tuple[float, float]
 
@@ -41,13 +39,13 @@ def drives(robot: Robot) -> Iterator[Drive]:
         if known is None or hardware.name in seen or not robot.has_joint(hardware.name):
             continue
         joint = robot.joints[hardware.name]
-        if joint.type in _DRIVEN and not joint.mimic:
+        if joint.type in SINGLE and not joint.mimic:
             seen.add(joint.name)
             yield Drive(joint, hardware, known, tuple(one for one in interfaces if one is not known))
 
 
 def actuator_element(drive: Drive) -> Xml:
-    """Return the actuator of a joint, with the ranges of its command and of its force."""
+    """Return the actuator of a joint, with the range of its command; that of its force is the joint's."""
     return _MAKERS[str(drive.interface)](drive)
 
 
@@ -60,15 +58,19 @@ def _position(drive: Drive) -> Xml:
 
 
 def _velocity(drive: Drive) -> Xml:
-    return _element("velocity", drive, _symmetric(drive.joint.limits, "velocity"), kv=_gain(drive, "kv"))
+    limits = drive.joint.limits
+    return _element("velocity", drive, symmetric(limits.velocity) if limits else None, kv=_gain(drive, "kv"))
 
 
 def _effort(drive: Drive) -> Xml:
-    return _element("motor", drive, _symmetric(drive.joint.limits, "effort"))
+    limits = drive.joint.limits
+    return _element("motor", drive, symmetric(limits.effort) if limits else None)
 
 
 _MAKERS: Mapping[str, Callable[[Drive], Xml]] = {"position": _position, "velocity": _velocity, "effort": _effort}
 
+INTERFACES = tuple(_MAKERS)
+"""The command interfaces that MuJoCo has actuators for."""
 
 GAINS = {"position": "kp", "velocity": "kv"}
 """The parameter that is the gain of an actuator."""
@@ -76,11 +78,10 @@ GAINS = {"position": "kp", "velocity": "kv"}
 
 def _element(tag: str, drive: Drive, reach: Range | None, **gains: float | None) -> Xml:
     parameters = drive.interface.parameters
-    stated = _both(_number(parameters.get("min")), _number(parameters.get("max")))
-    force = None if tag == "motor" else _symmetric(drive.joint.limits, "effort")
+    stated = _both(number_of(parameters.get("min")), number_of(parameters.get("max")))
     source = drive.interface.source or drive.hardware.source
     name = drive.joint.name
-    return leaf_at(tag, source, name=name, joint=name, ctrlrange=stated or reach, forcerange=force, **gains)
+    return leaf_at(tag, source, name=name, joint=name, ctrlrange=stated or reach, **gains)
 
 
 def has_gain(drive: Drive) -> bool:
@@ -90,21 +91,16 @@ def has_gain(drive: Drive) -> bool:
 
 
 def _gain(drive: Drive, name: str) -> float | None:
-    return _number(drive.interface.parameters.get(name, drive.hardware.parameters.get(name)))
+    return number_of(drive.interface.parameters.get(name, drive.hardware.parameters.get(name)))
 
 
-def _number(text: str | None) -> float | None:
+def number_of(text: str | None) -> float | None:
+    """Return the number in a parameter; None without one, as for a text that is none."""
     try:
         number = float(text) if text is not None else math.nan
     except ValueError:
         return None
     return number if math.isfinite(number) else None
-
-
-def _symmetric(limits: JointLimits | None, name: str) -> Range | None:
-    """Return the range of a limit in both directions; 0 in a URDF stands for no limit."""
-    bound: float = getattr(limits, name) if limits else 0.0
-    return (-bound, bound) if bound else None
 
 
 def _both(lower: float | None, upper: float | None) -> Range | None:

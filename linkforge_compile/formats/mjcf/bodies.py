@@ -11,7 +11,8 @@ from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, V
 from linkforge_compile.core.physics import rotated
 from linkforge_compile.formats.element import attributes_at, leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree, Node
-from linkforge_compile.formats.mjcf.joints import joint_elements
+from linkforge_compile.formats.mjcf.contacts import sliding_frictions
+from linkforge_compile.formats.mjcf.joints import free_joint_name, joint_elements
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.poses import NO_OFFSET, NO_TURN, pose
 from linkforge_compile.formats.mjcf.sensors import elements_in_body
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 LEAST_MASS = 1e-9
 """The mass of a moving body that has none [kg]: small enough not to matter."""
 
+_OTHER_FRICTION = (0.005, 0.0001)
+"""MuJoCo's defaults for friction against spinning and rolling [m]."""
+
 MeshNames: TypeAlias = Mapping[Mesh, str]
 """The names of the meshes that MuJoCo can read."""
 
@@ -32,6 +36,7 @@ def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free:
     """Yield the bodies in the order of the tree, each with its own parts and the number of bodies that end with it."""
     massless = {link.name for link in massless_movers(robot, tree, is_free=is_free)}
     nodes = [node for node in tree.nodes if node.link.name != WORLD]
+    frictions = sliding_frictions(robot)
     following = [*(node.depth for node in nodes[1:]), 0]
     for node, next_depth in zip(nodes, following, strict=False):  # a robot may have no links
         link, joint = node.link, node.joint
@@ -41,7 +46,7 @@ def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free:
             attributes=attributes_at(link.source, name=link.name, **placed, gravcomp=gravcomp),
             inertial=inertial_element(link, is_massless=link.name in massless),
             joints=_joints(node, is_free=is_free),
-            shapes=shape_elements(link, meshes),
+            shapes=shape_elements(link, meshes, frictions.get(link.name)),
             sensors=elements_in_body(robot, link.name),
             ends=node.depth + 1 - next_depth,
         )
@@ -50,19 +55,20 @@ def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free:
 def _joints(node: Node, *, is_free: bool) -> Sequence[Xml]:
     if node.joint:
         return joint_elements(node.joint)
-    return [leaf_at("freejoint", node.link.source, name=f"{node.link.name}_free")] if is_free else []
+    return [leaf_at("freejoint", node.link.source, name=free_joint_name(node.link.name))] if is_free else []
 
 
 def world_elements(robot: Robot, meshes: MeshNames) -> list[Xml]:
     """Return the shapes and sensors of the link that is the world itself."""
     if not robot.has_link(WORLD):
         return []
-    return [*shape_elements(robot.links[WORLD], meshes), *elements_in_body(robot, WORLD)]
+    world = robot.links[WORLD]
+    return [*shape_elements(world, meshes, sliding_frictions(robot).get(WORLD)), *elements_in_body(robot, WORLD)]
 
 
-def shape_elements(link: Link, meshes: MeshNames) -> list[Xml]:
+def shape_elements(link: Link, meshes: MeshNames, mu: float | None) -> list[Xml]:
     """Return the geoms of the shapes of a link, without those that MuJoCo cannot read."""
-    return [geom for shape in link.shapes if (geom := geom_element(shape, link, meshes))]
+    return [geom for shape in link.shapes if (geom := geom_element(shape, meshes, mu))]
 
 
 def inertial_element(link: Link, *, is_massless: bool) -> Xml:
@@ -87,13 +93,13 @@ def _entries(tensor: InertiaTensor) -> tuple[float, ...]:
     return (tensor.ixx, tensor.iyy, tensor.izz, tensor.ixy, tensor.ixz, tensor.iyz)
 
 
-def geom_element(shape: Visual | Collision, link: Link, meshes: MeshNames) -> Xml:
+def geom_element(shape: Visual | Collision, meshes: MeshNames, mu: float | None) -> Xml:
     """Return the geom of a shape; nothing for one that MuJoCo cannot read."""
     form = _form(shape.geometry, meshes)
     if form is None:
         return NOTHING
     if isinstance(shape, Collision):
-        friction = (link.physics.mu, 0.005, 0.0001) if link.physics.is_written("mu") else None
+        friction = (mu, *_OTHER_FRICTION) if mu is not None else None
         return leaf_at("geom", shape.source, **{"class": "collision"}, **form, **pose(shape.origin), friction=friction)
     color = shape.material.color if shape.material else None
     rgba = color.to_tuple() if color else None

@@ -14,6 +14,9 @@ from linkforge_compile.formats.xml_text import Xml
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
+SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
+"""The types of joints that are one joint of MuJoCo, with the same name."""
+
 _AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
 
 
@@ -36,8 +39,14 @@ def _single(joint: Joint) -> tuple[Xml, ...]:
             range=range_of(limits) if limits and has_range else None,
             damping=(dynamics.damping or None) if dynamics else None,
             frictionloss=(dynamics.friction or None) if dynamics else None,
+            actuatorfrcrange=symmetric(limits.effort) if limits else None,
         ),
     )
+
+
+def symmetric(bound: float) -> tuple[float, float] | None:
+    """Return the range of a limit in both directions; 0 in a URDF stands for no limit."""
+    return (-bound, bound) if bound else None
 
 
 def range_of(limits: JointLimits) -> tuple[float, float]:
@@ -52,21 +61,23 @@ def is_locked(limits: JointLimits) -> bool:
 
 
 def _floating(joint: Joint) -> tuple[Xml, ...]:
-    """Return a free joint, which a body has in the world alone; elsewhere three slides and a ball are the same."""
-    if joint.parent == WORLD and joint.origin == IDENTITY:
+    """Return a free joint, or three slides and a ball, which are the same elsewhere."""
+    if is_free_joint(joint):
         return (leaf_at("freejoint", joint.source, name=joint.name),)
-    slides = [_part(joint, suffix, "slide", axis) for suffix, axis in _AXES.items()]
-    return (*slides, leaf_at("joint", joint.source, name=f"{joint.name}_ball", type="ball"))
+    *slides, ball = part_names(joint)
+    axes = zip(slides, _AXES.values(), strict=True)
+    return (*(_part(joint, name, "slide", axis) for name, axis in axes), _part(joint, ball, "ball"))
 
 
 def _planar(joint: Joint) -> tuple[Xml, ...]:
     """Return two slides in the plane and a hinge about its normal."""
     normal = joint.axis or _AXES["z"]
     first, second = _axes_of_plane(normal)
+    x, y, yaw = part_names(joint)
     return (
-        _part(joint, "x", "slide", first),
-        _part(joint, "y", "slide", second),
-        _part(joint, "yaw", "hinge", normal),
+        _part(joint, x, "slide", first),
+        _part(joint, y, "slide", second),
+        _part(joint, yaw, "hinge", normal),
     )
 
 
@@ -79,8 +90,31 @@ def _axes_of_plane(normal: Vector3) -> tuple[Vector3, Vector3]:
     return first, second
 
 
-def _part(joint: Joint, suffix: str, kind: str, axis: Vector3) -> Xml:
-    return leaf_at("joint", joint.source, name=f"{joint.name}_{suffix}", type=kind, axis=axis)
+def _part(joint: Joint, name: str, kind: str, axis: Vector3 | None = None) -> Xml:
+    return leaf_at("joint", joint.source, name=name, type=kind, axis=axis)
+
+
+_SUFFIXES: Mapping[str, tuple[str, ...]] = {
+    JointType.FLOATING: ("_x", "_y", "_z", "_ball"),
+    JointType.PLANAR: ("_x", "_y", "_yaw"),
+}
+
+
+def part_names(joint: Joint) -> Sequence[str]:
+    """Return the names of MuJoCo's joints for a joint, whose own name only one of its kind has."""
+    if joint.type not in _SUFFIXES or is_free_joint(joint):
+        return () if joint.type == JointType.FIXED else (joint.name,)
+    return [f"{joint.name}{suffix}" for suffix in _SUFFIXES[joint.type]]
+
+
+def is_free_joint(joint: Joint) -> bool:
+    """Whether a joint is MuJoCo's free joint, which a body has in the world alone, without a pose of its own."""
+    return joint.type == JointType.FLOATING and joint.parent == WORLD and joint.origin == IDENTITY
+
+
+def free_joint_name(base: str) -> str:
+    """Return the name of the free joint of a base."""
+    return f"{base}_free"
 
 
 _MAKERS: Mapping[str, Callable[[Joint], tuple[Xml, ...]]] = {
@@ -101,14 +135,18 @@ def equality_elements(robot: Robot) -> Sequence[Xml]:
 
 def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
     mimic, limits = joint.mimic, joint.limits
-    if joint.type not in (*_WITH_RANGE, JointType.CONTINUOUS):
-        return ()
-    leader = robot.joints[mimic.joint] if mimic and robot.has_joint(mimic.joint) else None
-    # No joint has the name of a planar or floating one. Readers of URDF drop such a mimic too (LF5502).
-    if mimic and leader and leader.type in (*_WITH_RANGE, JointType.CONTINUOUS):
+    if mimic and leader_of(joint, robot):
         coefficients = (mimic.offset, mimic.multiplier, 0, 0, 0)
         return (leaf_at("joint", mimic.source, joint1=joint.name, joint2=mimic.joint, polycoef=coefficients),)
     if limits and joint.type in _WITH_RANGE and is_locked(limits):
         coefficients = (limits.lower or 0.0, 0, 0, 0, 0)
         return (leaf_at("joint", limits.source, joint1=joint.name, polycoef=coefficients),)
     return ()
+
+
+def leader_of(joint: Joint, robot: Robot) -> Joint | None:
+    """Return the joint that a joint mimics; None where one of them is not one joint of MuJoCo, as for LF5502."""
+    if joint.mimic is None or joint.type not in SINGLE or not robot.has_joint(joint.mimic.joint):
+        return None
+    leader = robot.joints[joint.mimic.joint]
+    return leader if leader.type in SINGLE else None

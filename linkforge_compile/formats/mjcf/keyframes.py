@@ -1,20 +1,23 @@
-"""Keyframes in MJCF: the states of groups as positions of all joints."""
+"""Keyframes in MJCF: initial positions and the states of groups, as positions of all joints."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
-from linkforge_compile.formats.mjcf.actuators import Drive, drives
-from linkforge_compile.formats.mjcf.joints import is_locked
+from linkforge_compile.formats.mjcf.actuators import Drive, drives, number_of
+from linkforge_compile.formats.mjcf.joints import range_of
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source import SourceRef
 
 _AT_ORIGIN = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
@@ -23,29 +26,74 @@ _AT_REST: Mapping[str, Sequence[float]] = {
     JointType.PLANAR: (0.0, 0.0, 0.0),
     JointType.FLOATING: _AT_ORIGIN,
 }
-"""The positions of joints at rest where they are not one 0; a quaternion begins with w."""
+"""The positions at rest of joints that have other than one position; a quaternion begins with w."""
+
+INITIAL, INITIAL_VALUE = "initial_positions", "initial_value"
+"""The keyframe of the initial positions, and the parameter of an interface that is one."""
+
+Positions: TypeAlias = Mapping[str, Sequence[object]]
+"""The positions of joints by name, as SRDF has them."""
+
+
+class State(NamedTuple):
+    """A keyframe: positions of some joints, the virtual one of the base among them; the others are at rest.
+
+    `origin` is what it is made of, in words.
+    """
+
+    name: str
+    origin: str
+    positions: Positions
+    source: SourceRef | None
+
+
+def states_of(robot: Robot) -> Iterator[State]:
+    """Yield the initial positions of ros2_control as `initial_positions`, and the states of all groups.
+
+    States of one name in several groups have the name of their group before it.
+    """
+    initial = tuple(_initial_positions(robot))
+    if initial:
+        positions = {name: (value,) for name, value, _ in initial}
+        yield State(INITIAL, "the initial positions", positions, initial[0][-1])
+    states = robot.semantic.group_states if robot.has_semantic else ()
+    count = Counter(state.name for state in states)
+    for state in states:
+        name = state.name if count[state.name] == 1 else f"{state.group}_{state.name}"
+        origin = f"state '{state.name}' of group '{state.group}'"
+        yield State(name, origin, state.joint_values, state.source)
+
+
+def _initial_positions(robot: Robot) -> Iterator[tuple[str, float, SourceRef | None]]:
+    """Yield the initial position of each joint that hardware gives one, and its place."""
+    for hardware in (joint for system in robot.ros2_controls for joint in system.joints):
+        for state in map(Interface.of, hardware.state_interfaces):
+            value = number_of(state.parameters.get(INITIAL_VALUE))
+            if state == "position" and value is not None:
+                yield hardware.name, value, state.source or hardware.source
 
 
 def key_elements(robot: Robot, tree: KinematicTree, *, is_free: bool) -> Iterator[Xml]:
-    """Yield the states of all groups; joints that a state does not mention are at 0.
-
-    Position actuators hold the state. States of one name in several groups have the name of their group before it.
-    """
-    if not robot.has_semantic:
-        return
-    states = robot.semantic.group_states
-    count = Counter(state.name for state in states)
+    """Yield the states of a robot as positions of all joints, held by its position actuators."""
     driven = tuple(drives(robot))
-    for state in states:
-        name = state.name if count[state.name] == 1 else f"{state.group}_{state.name}"
-        positions = _positions(robot, tree, state.joint_values)
-        qpos = [*(_AT_ORIGIN if is_free and _has_free_root(tree) else ()), *_in_order(tree, positions)]
+    for name, _, stated, source in states_of(robot):
+        positions = _positions(tree, stated)
+        base = _pose_of_base(robot, tree.nodes[0].link.name, stated) if is_free and _has_free_root(tree) else ()
         ctrl = [_command(drive, positions) for drive in driven]
-        yield leaf_at("key", state.source, name=name, qpos=qpos, ctrl=ctrl or None)
+        yield leaf_at("key", source, name=name, qpos=[*base, *_in_order(tree, positions)], ctrl=ctrl or None)
 
 
 def _has_free_root(tree: KinematicTree) -> bool:
     return bool(tree.nodes) and tree.nodes[0].link.name != WORLD
+
+
+def _pose_of_base(robot: Robot, base: str, stated: Positions) -> Sequence[float]:
+    """Return the pose that a state gives the floating virtual joint of the base, that of the world without one."""
+    virtual_joints = robot.semantic.virtual_joints if robot.has_semantic else ()
+    for joint in virtual_joints:
+        if joint.child_link == base and joint.type == VirtualJointType.FLOATING and joint.name in stated:
+            return _numbers(stated[joint.name], JointType.FLOATING, _AT_ORIGIN)
+    return _AT_ORIGIN
 
 
 def _in_order(tree: KinematicTree, positions: Mapping[str, Sequence[float]]) -> Iterator[float]:
@@ -54,7 +102,7 @@ def _in_order(tree: KinematicTree, positions: Mapping[str, Sequence[float]]) -> 
             yield from positions[node.joint.name]
 
 
-def _positions(robot: Robot, tree: KinematicTree, stated: Mapping[str, Sequence[object]]) -> dict[str, Sequence[float]]:
+def _positions(tree: KinematicTree, stated: Positions) -> dict[str, Sequence[float]]:
     """Return the positions of each joint of the tree; those of joints that mimic others follow."""
     joints = [node.joint for node in tree.nodes if node.joint]
     positions = {joint.name: _of_state(joint, stated) for joint in joints}
@@ -66,18 +114,27 @@ def _positions(robot: Robot, tree: KinematicTree, stated: Mapping[str, Sequence[
     return positions
 
 
-def _of_state(joint: Joint, stated: Mapping[str, Sequence[object]]) -> Sequence[float]:
-    at_rest = _AT_REST.get(joint.type, (_locked_at(joint),))
-    numbers = [one for one in stated.get(joint.name, ()) if isinstance(one, int | float)]
+def _of_state(joint: Joint, stated: Positions) -> Sequence[float]:
+    at_rest = _AT_REST.get(joint.type, (_position_at_rest(joint),))
+    return _numbers(stated.get(joint.name, ()), joint.type, at_rest)
+
+
+def _numbers(stated: Sequence[object], kind: str, at_rest: Sequence[float]) -> Sequence[float]:
+    """Return the positions of a joint in MuJoCo's order; those at rest unless as many numbers are stated."""
+    numbers = [one for one in stated if isinstance(one, int | float)]
     if len(numbers) != len(at_rest):
         return at_rest
-    if joint.type == JointType.FLOATING:  # SRDF has w last
+    if kind == JointType.FLOATING:  # SRDF has w last
         return (*numbers[:3], numbers[6], *numbers[3:6])
     return tuple(numbers)
 
 
-def _locked_at(joint: Joint) -> float:
-    return joint.limits.lower or 0.0 if joint.limits and is_locked(joint.limits) else 0.0
+def _position_at_rest(joint: Joint) -> float:
+    """Return 0, or the middle of a range without it, as joint_state_publisher and MoveIt do."""
+    if joint.limits is None or joint.type == JointType.CONTINUOUS:
+        return 0.0
+    lower, upper = range_of(joint.limits)
+    return 0.0 if lower <= 0 <= upper else (lower + upper) / 2
 
 
 def _mimicking(joint: Joint, positions: Mapping[str, Sequence[float]]) -> Sequence[float]:

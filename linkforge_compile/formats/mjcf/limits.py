@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.diagnostics.codes.formats import (
     IMPOSSIBLE_FOR_MUJOCO,
     MASSLESS_IN_MUJOCO,
     MESH_FOR_MUJOCO,
     NESTED_TOO_DEEP,
     NO_GAIN,
+    NO_MESSAGES,
+    NO_VELOCITY_LIMIT,
     NOT_IN_MJCF,
     ONE_ACTUATOR,
     OPPOSITE_SIGN,
+    TAKEN_IN_MUJOCO,
     WORLD_BELOW_JOINT,
 )
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
+from linkforge_compile.formats.mjcf.joints import SINGLE, free_joint_name, part_names
+from linkforge_compile.formats.mjcf.keyframes import states_of
+from linkforge_compile.formats.mjcf.losses import lost_parts
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -53,6 +55,9 @@ def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     for sensor in robot.sensors:
         if has_opposite_sign(sensor):
             yield OPPOSITE_SIGN.at(sensor.source, "force_torque", sensor=sensor.name)
+    yield from check_velocities(robot)
+    yield from check_messages(robot)
+    yield from check_names(robot, tree, is_free=is_free)
     yield from check_lost_parts(robot)
 
 
@@ -87,44 +92,54 @@ def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
 
 def check_lost_parts(robot: Robot) -> Iterator[Diagnostic]:
     """Yield the parts of a robot for which MJCF has no element."""
-    for what, name, source, path in _lost_parts(robot):
-        yield NOT_IN_MJCF.at(source, *path, parts=what, name=name)
+    for loss in lost_parts(robot):
+        yield NOT_IN_MJCF.at(loss.source, *loss.path, parts=loss.parts, name=loss.name)
 
 
-Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str, ...]]
-"""What kind of part is left out, the name of the part, and its place."""
-
-
-def _lost_parts(robot: Robot) -> Iterator[Loss]:
-    for sensor in robot.sensors:
-        if loss := sensor_loss(sensor):
-            yield loss, sensor.name, sensor.source, ("type",)
-    for transmission in robot.transmissions:
-        yield "transmissions", transmission.name, transmission.source, ()
-    for block in filter(_has_settings, robot.gazebo_elements):
-        yield "settings for Gazebo", block.reference or robot.name, block.source, ()
+def check_velocities(robot: Robot) -> Iterator[Diagnostic]:
+    """MuJoCo limits the command of a velocity actuator, and no velocity."""
+    commanded = {drive.joint.name for drive in drives(robot) if drive.interface == "velocity"}
     for joint in robot.joints:
-        if joint.safety_controller:
-            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
-    yield from _lost_textures(robot)
-    yield from _lost_xml(robot)
+        if joint.type in SINGLE and joint.limits and joint.limits.velocity and joint.name not in commanded:
+            yield NO_VELOCITY_LIMIT.at(joint.limits.source or joint.source, "velocity", joint=joint.name)
 
 
-def _has_settings(block: GazeboElement) -> bool:
-    """Whether a block has more than what keeps a fixed joint, as MJCF keeps them all."""
-    others = block.properties.keys() - set(KEEP_FIXED_JOINT)
-    return bool(others) or replace(block, properties={}) != GazeboElement(block.reference)
+def check_messages(robot: Robot) -> Iterator[Diagnostic]:
+    """MuJoCo measures at every step, and sends no messages."""
+    for sensor in robot.sensors:
+        if sensor_loss(sensor) is None:
+            yield NO_MESSAGES.at(sensor.source, sensor=sensor.name)
 
 
-def _lost_textures(robot: Robot) -> Iterator[Loss]:
-    for link in robot.links:
-        for material in (visual.material for visual in link.visuals):
-            if material and material.texture:
-                yield "textures on single shapes", material.name or link.name, material.source, ("texture",)
+def check_names(robot: Robot, tree: KinematicTree, *, is_free: bool) -> Iterator[Diagnostic]:
+    """MuJoCo refuses two joints of one name, and two keyframes; some of their names are made of others."""
+    yield from _taken("joints", sorted(_joint_names(tree, is_free=is_free), key=lambda named: named.is_own))
+    yield from _taken("keyframes", [Named(one.name, one.origin, one.source) for one in states_of(robot)])
 
 
-def _lost_xml(robot: Robot) -> Iterator[Loss]:
-    parts: tuple[Robot | Link | Joint, ...] = (robot, *robot.links, *robot.joints)
-    for part in parts:
-        if part.extra_elements:
-            yield "raw XML of a URDF", part.name, part.source, ("extra",)
+class Named(NamedTuple):
+    """A name in the MJCF, what has it, in words, and its place; `is_own` if it is that of the robot, too."""
+
+    name: str
+    owner: str
+    source: SourceRef | None
+    is_own: bool = False
+
+
+def _joint_names(tree: KinematicTree, *, is_free: bool) -> Iterator[Named]:
+    for link, joint, _ in tree.nodes:
+        if joint is None:
+            if is_free and link.name != WORLD:
+                yield Named(free_joint_name(link.name), f"the free joint of link '{link.name}'", link.source)
+            continue
+        for name in part_names(joint):
+            is_own = name == joint.name
+            yield Named(name, f"a part of {joint.type} joint '{joint.name}'", joint.source, is_own)
+
+
+def _taken(parts: str, names: Iterable[Named]) -> Iterator[Diagnostic]:
+    first: dict[str, Named] = {}
+    for named in names:
+        other = first.setdefault(named.name, named)
+        if other is not named:
+            yield TAKEN_IN_MUJOCO.at(named.source, "name", parts=parts, name=named.name, owner=other.owner)

@@ -65,7 +65,7 @@ def _fault(mesh: Mesh, path: Path | None) -> str | None:
 def mesh_assets(robot: Robot) -> MeshAssets:
     """Return the meshes that MuJoCo can read, each with a name of its own."""
     found = [(one.mesh, one.path) for one in mesh_files(robot) if one.path and not one.fault]
-    if all(is_relative(mesh) for mesh, _ in found):
+    if all(is_relative(mesh.resource) for mesh, _ in found):
         folder, files = None, [mesh.resource for mesh, _ in found]
     else:
         folder = os.path.commonpath([path.parent for _, path in found])

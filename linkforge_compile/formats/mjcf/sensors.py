@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.constants import DEFAULT_CAMERA_FAR, DEFAULT_CAMERA_NEAR, NOISE_GAUSSIAN
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.sensor import (
     CameraInfo,
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 _CAMERAS = (SensorType.CAMERA, SensorType.DEPTH_CAMERA, SensorType.RGBD_CAMERA)
 
+_USUAL_CLIP = (DEFAULT_CAMERA_NEAR, DEFAULT_CAMERA_FAR)
+
 _WIDEST = 179.0
 """MuJoCo refuses a field of view of half a turn [deg]."""
 
@@ -36,6 +39,28 @@ def sensor_loss(sensor: Sensor) -> str | None:
         is_of_parent = info.frame == ForceTorqueFrame.PARENT
         return "force-torque sensors in the frame of the parent" if is_of_parent else None
     return None if sensor.type in (*_CAMERAS, SensorType.IMU) else f"sensors of type {sensor.type}"
+
+
+def sensor_losses(sensor: Sensor) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield what MuJoCo has not of a sensor, all of it or some, and the path to it."""
+    if loss := sensor_loss(sensor):
+        yield loss, ("type",)
+        return
+    if sensor.plugin:
+        yield "plugins of sensors", ("plugin",)
+    camera, imu, wrench = sensor.camera_info, sensor.imu_info, sensor.force_torque_info
+    if camera and camera.noise:
+        yield "noise of cameras", ("camera", "noise")
+    if camera and (camera.near_clip, camera.far_clip) != _USUAL_CLIP:
+        yield "clip distances of cameras", ("camera",)
+    noises = {
+        ("imu", "angular_velocity_noise"): imu and imu.angular_velocity_noise,
+        ("imu", "linear_acceleration_noise"): imu and imu.linear_acceleration_noise,
+        ("force_torque", "noise"): wrench and wrench.noise,
+    }
+    for path, noise in noises.items():
+        if noise and noise != SensorNoise(NOISE_GAUSSIAN, stddev=noise.stddev):
+            yield "noise other than a standard deviation", path
 
 
 def has_opposite_sign(sensor: Sensor) -> bool:

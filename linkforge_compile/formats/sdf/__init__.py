@@ -39,6 +39,7 @@ class Sdf(TemplateFormat):
 
     name = "sdf"
     suffix = ".sdf"
+    share_folder = "sdf"
     description = "the robot for Gazebo Sim"
     keeps = "links, joints, inertials, shapes, materials, contact settings, sensors and plugins, with all their frames"
     loses = "planar joints, safety controllers, transmissions, and raw XML of a URDF"

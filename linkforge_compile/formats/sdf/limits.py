@@ -94,6 +94,9 @@ def check_files(robot: Robot) -> Iterator[Diagnostic]:
 def _losses(robot: Robot, layout: Layout) -> Iterator[Loss]:
     yield from _losses_of_world(robot, layout)
     for joint in robot.joints:
+        limits = joint.limits
+        if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
+            yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
         if joint.safety_controller:
             yield "safety controllers", joint.name, joint.source, ("safety_controller",)
         if joint.calibration:

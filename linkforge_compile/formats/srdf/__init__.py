@@ -22,6 +22,7 @@ class Srdf(TemplateFormat):
 
     name = "srdf"
     suffix = ".srdf"
+    share_folder = "urdf"
     description = "the semantic part of a robot, for MoveIt"
     keeps = "the semantic part: groups, their states, end effectors, virtual and passive joints, disabled collisions"
     loses = "everything else, which its readers take from the URDF"

@@ -27,6 +27,7 @@ class Urdf(TemplateFormat):
 
     name = "urdf"
     suffix = ".urdf"
+    share_folder = "urdf"
     description = "the robot with its meshes, controllers and sensors"
     keeps = "links, joints, inertias, shapes, materials, sensors, transmissions, ros2_control, Gazebo and raw XML"
     loses = "the semantic part, which is for SRDF; with --gazebo, sensors that the simulator does not have"

@@ -1,0 +1,127 @@
+"""What sampling needs of a robot, as plain values that other processes can get: bodies, their motion and shapes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple, TypeAlias
+
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
+from linkforge_compile.core.models.graph import child_joints, tree_root, walk_down
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
+
+Triple: TypeAlias = tuple[float, float, float]
+
+UNBOUNDED = (JointType.FLOATING, JointType.PLANAR)
+"""Joints without limits of their position: the links below one can be anywhere."""
+
+
+class Pose(NamedTuple):
+    """A position [m] and a rotation about the fixed axes x, y, z [rad], in the frame of the parent."""
+
+    xyz: Triple
+    rpy: Triple
+
+
+class Shape(NamedTuple):
+    """The shape of a collision: its tag in URDF, its sizes [m], or the scale of a mesh, and the file of a mesh."""
+
+    tag: str
+    sizes: tuple[float, ...]
+    pose: Pose
+    path: Path | None = None
+
+
+class Motion(NamedTuple):
+    """How a joint with one degree of freedom moves; positions are [rad], or [m] unless `is_turning`.
+
+    A joint that follows another one is at `multiplier` times the position of body `leader`, plus `offset`.
+    """
+
+    is_turning: bool
+    axis: Triple
+    lower: float
+    upper: float
+    leader: int | None = None
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+    @property
+    def default(self) -> float:
+        """The position in MoveIt's default pose: 0, or the middle of the limits if they exclude it."""
+        return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2
+
+
+class Body(NamedTuple):
+    """A link with the place of its parent in the scene, None for the root, and the motion of the joint between.
+
+    `motion` is None for a joint that is fixed, or that can be anywhere. Bodies of one `island` have no joint between
+    them that can be anywhere; it is the place of the topmost of them.
+    """
+
+    link: str
+    parent: int | None
+    pose: Pose
+    motion: Motion | None
+    island: int
+    shapes: tuple[Shape, ...]
+
+
+Scene: TypeAlias = Sequence[Body]
+"""The bodies of a robot, each after its parent."""
+
+
+def make_scene(robot: Robot, paths: Mapping[str, Path]) -> Scene:
+    """Return the bodies of a robot that is a tree; `paths` are the files of the meshes, as they are written."""
+    root = tree_root(robot.links, robot.joints)
+    joints = list(walk_down([root], child_joints(robot.joints)))
+    places = {root: 0} | {joint.child: place for place, joint in enumerate(joints, 1)}
+    place_of_joint = {joint.name: places[joint.child] for joint in joints}
+    bodies = [Body(root, None, _pose(Transform()), None, 0, _shapes(robot.links[root], paths))]
+    for place, joint in enumerate(joints, 1):
+        parent = places[joint.parent]
+        island = place if joint.type in UNBOUNDED else bodies[parent].island
+        motion, shapes = _motion(joint, place_of_joint), _shapes(robot.links[joint.child], paths)
+        bodies.append(Body(joint.child, parent, _pose(joint.origin), motion, island, shapes))
+    return tuple(bodies)
+
+
+def _motion(joint: Joint, places: Mapping[str, int]) -> Motion | None:
+    if joint.axis is None or joint.type in UNBOUNDED:
+        return None
+    lower, upper = _range(joint)
+    motion = Motion(joint.type != JointType.PRISMATIC, joint.axis.to_tuple(), lower, upper)
+    if joint.mimic is None:
+        return motion
+    leader = places.get(joint.mimic.joint)
+    return motion._replace(leader=leader, multiplier=joint.mimic.multiplier, offset=joint.mimic.offset)
+
+
+def _range(joint: Joint) -> tuple[float, float]:
+    if joint.type == JointType.CONTINUOUS or joint.limits is None:
+        return -math.pi, math.pi
+    # Readers of URDF take 0 for a limit that is not written.
+    return joint.limits.lower or 0.0, joint.limits.upper or 0.0
+
+
+def _pose(origin: Transform) -> Pose:
+    return Pose(origin.xyz.to_tuple(), origin.rpy.to_tuple())
+
+
+def _shapes(link: Link, paths: Mapping[str, Path]) -> tuple[Shape, ...]:
+    return tuple(_shape(one.geometry, _pose(one.origin), paths) for one in link.collisions)
+
+
+def _shape(geometry: Geometry, pose: Pose, paths: Mapping[str, Path]) -> Shape:
+    match geometry:
+        case Box(size=size):
+            return Shape(geometry.TAG, size.to_tuple(), pose)
+        case Sphere(radius=radius):
+            return Shape(geometry.TAG, (radius,), pose)
+        case Cylinder(radius=radius, length=length) | Capsule(radius=radius, length=length):
+            return Shape(geometry.TAG, (radius, length), pose)
+        case Mesh(resource=resource, scale=scale):
+            return Shape(geometry.TAG, scale.to_tuple(), pose, paths[resource])

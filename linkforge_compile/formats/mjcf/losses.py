@@ -1,0 +1,148 @@
+"""The parts of a robot that MJCF has no element for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.core.part import attribute_pairs
+from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
+from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
+from linkforge_compile.formats.mjcf.joints import SINGLE, leader_of
+from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
+from linkforge_compile.formats.mjcf.sensors import sensor_losses
+from linkforge_compile.formats.parts import doubtful_parts_in
+from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+
+
+class Loss(NamedTuple):
+    """What kind of part is left out, the name of the part that has it, and its place."""
+
+    parts: str
+    name: str
+    source: SourceRef | None
+    path: Sequence[str | int] = ()
+
+
+def lost_parts(robot: Robot) -> Iterator[Loss]:
+    """Yield each part that is left out, under the words for its kind."""
+    for sensor in robot.sensors:
+        for parts, path in sensor_losses(sensor):
+            yield Loss(parts, sensor.name, sensor.source, path)
+    for transmission in robot.transmissions:
+        yield Loss("transmissions", transmission.name, transmission.source)
+    for block in filter(_has_settings, robot.gazebo_elements):
+        yield Loss("settings for Gazebo", block.reference or robot.name, block.source)
+    for joint in robot.joints:
+        yield from _of_joint(joint, robot)
+    yield from _of_links(robot)
+    yield from _of_hardware(robot)
+    yield from _raw_xml(robot)
+
+
+def _has_settings(block: GazeboElement) -> bool:
+    """Whether a block has more than friction, and what keeps a fixed joint, as MJCF keeps them all."""
+    friction = ("mu1", "mu2") if block.properties.get("mu1") == block.properties.get("mu2") else ("mu1",)
+    others = block.properties.keys() - {*KEEP_FIXED_JOINT, *friction}
+    return bool(others) or replace(block, properties={}) != GazeboElement(block.reference)
+
+
+def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
+    if joint.safety_controller:
+        yield Loss("safety controllers", joint.name, joint.source, ("safety_controller",))
+    if joint.calibration:
+        yield Loss("calibrations", joint.name, joint.source, ("calibration",))
+    if joint.limits and (joint.limits.acceleration or joint.limits.deceleration or joint.limits.jerk):
+        yield Loss("limits of acceleration and jerk", joint.name, joint.limits.source or joint.source)
+    if joint.mimic and leader_of(joint, robot) is None:
+        yield Loss("mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source)
+    if joint.type not in (*SINGLE, JointType.FIXED):
+        if joint.limits:
+            yield Loss(f"limits of {joint.type} joints", joint.name, joint.limits.source or joint.source)
+        if joint.dynamics and (joint.dynamics.damping or joint.dynamics.friction):
+            yield Loss(f"dynamics of {joint.type} joints", joint.name, joint.dynamics.source or joint.source)
+
+
+def _of_links(robot: Robot) -> Iterator[Loss]:
+    for link in robot.links:
+        physics = link.physics
+        if physics.is_written("mu2") and physics.mu2 != physics.mu:
+            yield Loss("second coefficient of friction (mu2)", link.name, physics.source or link.source)
+        if physics.is_written("kp") or physics.is_written("kd"):
+            yield Loss("stiffness and damping of contacts (kp, kd)", link.name, physics.source or link.source)
+        if physics.is_written("self_collide") and not physics.self_collide:
+            yield Loss("`self_collide: false`", link.name, physics.source or link.source)
+        for material in (visual.material for visual in link.visuals):
+            if material and material.texture:
+                yield Loss("textures on single shapes", material.name or link.name, material.source, ("texture",))
+
+
+def _of_hardware(robot: Robot) -> Iterator[Loss]:
+    driven = {drive.joint.name for drive in drives(robot)}
+    for system in robot.ros2_controls:
+        for pin in system.gpios:
+            yield Loss("gpios", pin.name, pin.source)
+        for sensor in system.sensors:
+            yield Loss("sensors of hardware", sensor.name, sensor.source)
+        for hardware in system.joints:
+            if not robot.has_joint(hardware.name):
+                continue
+            joint = robot.joints[hardware.name]
+            if joint.name not in driven:
+                yield from _undriven(hardware, joint)
+            for state in map(Interface.of, hardware.state_interfaces):
+                is_kept = state == "position" and joint.type in SINGLE
+                if number_of(state.parameters.get(INITIAL_VALUE)) and not is_kept:
+                    yield Loss(f"initial {state}", hardware.name, state.source or hardware.source)
+
+
+def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
+    names = [str(Interface.of(name)) for name in hardware.command_interfaces]
+    if not names:
+        return
+    if joint.type not in SINGLE:
+        what = f"actuators of {joint.type} joints"
+    elif joint.mimic and any(name in INTERFACES for name in names):
+        what = "actuators of joints that mimic others"
+    else:
+        what = f"actuators for the command interface '{names[0]}'"
+    yield Loss(what, joint.name, hardware.source, ("command_interfaces",))
+
+
+_WITHOUT_LOSS = ("xmlns", "quat_xyzw")
+"""Raw attributes that MJCF needs not: namespaces, and a turn that `rpy` has as well."""
+
+
+_RAW = "raw XML of a URDF"
+
+
+def _raw_xml(robot: Robot) -> Iterator[Loss]:
+    """Yield raw XML and attributes, but for those of parts that are left out as a whole."""
+    kept = doubtful_parts_in(tuple(robot.materials.values()), robot.links, robot.joints, robot.ros2_controls)
+    semantic = doubtful_parts_in(robot.semantic if robot.has_semantic else ())
+    yield from _lost_texts(robot, robot.name, robot.source)
+    for held in (*kept.with_extras, *semantic.with_extras):
+        if any(isinstance(part, Joint) and part.type == JointType.FIXED for part in (held.part, *held.around)):
+            continue  # an axis or a limit, which a fixed joint has no use for
+        names = (getattr(part, "name", None) for part in (held.part, *reversed(held.around)))
+        yield from _lost_texts(held.part, next(filter(None, names), robot.name), held.where)
+
+
+def _lost_texts(part: Extended, name: str, where: SourceRef | None) -> Iterator[Loss]:
+    """Yield the first raw XML or attribute of a part; `inside` has further ones."""
+    for _, place, keys in raw_texts(part, where):
+        yield Loss(_RAW, name, place, keys)
+        return
+    for attribute, _ in attribute_pairs(part.extra_attributes):
+        if not attribute.startswith(_WITHOUT_LOSS):
+            source, *path = place_of_attribute(attribute, where)
+            yield Loss(_RAW, name, source, (*path, attribute))
+            return
