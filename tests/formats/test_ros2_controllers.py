@@ -278,3 +278,19 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["own:"] == "own"
     assert shown["type: a/B"] == "a/B"
     assert shown["p: 4"] == "4"
+
+
+def test_names_in_parameters_are_reported_under_a_prefix(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(
+        f"linkforge: 1\nname: arm\n{ROBOT}controllers:\n  own:\n    type: a/B\n"
+        "    parameters: {gains: {elbow: {p: 1}, $(joint('shoulder')): {p: 2}}, tip: lower}\n"
+    )
+    both = tmp_path / "both.robot.yaml"
+    both.write_text(
+        "linkforge: 1\nname: both\nlinks: {table: }\nmodules: {arm: {use: arm.robot.yaml, parent: table, prefix: l_}}\n"
+    )
+    compilation = compile_file(both)
+    found = [(one.code.id, one.span.text) for one in compilation.diagnostics if one.span]
+    assert found == [("LF5704", "elbow"), ("LF5704", "lower")]
+    written = yaml.safe_load(ROS2_CONTROLLERS.render(compilation.result(), Rendering())[0].text)
+    assert list(written["l_own"]["ros__parameters"]["gains"]) == ["elbow", "l_shoulder"]
