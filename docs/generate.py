@@ -16,11 +16,12 @@ import yaml
 from linkforge_compile.core.meshes import MAX_TRIANGLES
 from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
-from linkforge_compile.expand import parameters, spec_tree
+from linkforge_compile.expand import parameters
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
 from linkforge_compile.expressions import operators, parse
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit
+from linkforge_compile.load import spec_tree
 from linkforge_compile.lower import mesh_solids
 from linkforge_compile.schema.json_schema import LONG_FORM, WORDS, Json, Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions

@@ -13,8 +13,8 @@ from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_TH
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import Arguments, ImportSite, Loader, SpecFile, is_xacro
-from linkforge_compile.expand.uses import charge_entries
+from linkforge_compile.expand import Arguments
+from linkforge_compile.expand.instance import charge_entries
 from linkforge_compile.formats import SRDF, URDF
 from linkforge_compile.formats.render import render_srdf, render_urdf
 from linkforge_compile.fresh_stack import on_fresh_stack
@@ -22,6 +22,7 @@ from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.importers.origin import Origin, digest_of
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load import ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.lower import MeshSolids
 from linkforge_compile.pipeline import Packages, Parameters, Settings, check_alone, compile_source
 from linkforge_compile.source import SourceFile, Span
@@ -29,8 +30,8 @@ from linkforge_compile.syntax import YamlMap, YamlScalar, read
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.xacro import Expansion
     from linkforge_compile.formats.urdf import Gazebo
+    from linkforge_compile.load.xacro import Expansion
 
 _IMPORTED = (URDF, SRDF)
 """The formats of the documents of an import, in their order."""
@@ -240,11 +241,11 @@ _Read = tuple[SourceFile, Imported]
 
 def _open_srdf(srdf: Path, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Expansion | None:
     from linkforge_compile.expand.expand_uses import open_semantic
-    from linkforge_compile.expand.xacro import XacroUse
+    from linkforge_compile.load.xacro import XacroUse
 
     # The user named it like the URDF, and a xacro of MoveIt includes files from its own package.
     loader.roots = loader.roots.with_those_around(srdf)
-    return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None), arguments), loader, sink)
+    return open_semantic(XacroUse(srdf, ImportSite(str(srdf), None)), arguments, loader, sink)
 
 
 _Names = Collection[str] | None
@@ -268,9 +269,10 @@ def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Load
 def _read_xacro(
     xacro: Path, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics, *, spec_folder: Path
 ) -> _Read | None:
-    from linkforge_compile.expand.xacro import XacroUse, read_xacro
+    from linkforge_compile.expand.arguments import xacro_arguments
+    from linkforge_compile.load.xacro import XacroUse, read_xacro
 
-    use = XacroUse(xacro, ImportSite(str(xacro), None), arguments, used_elsewhere=declared)
+    use = XacroUse(xacro, ImportSite(str(xacro), None), xacro_arguments(arguments, sink), used_elsewhere=declared)
     robot = read_xacro(use, loader, sink, keeps_refused=True, spec_folder=spec_folder)
     return (robot[0][0], robot[1]) if robot else None
 

@@ -28,10 +28,10 @@ from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_descriptions import ParameterValue
 
-from linkforge_compile.expand import is_xacro
 from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import NO_OPTIONS, SRDF, URDF, Format, Options, Rendering, format_named, require_options
+from linkforge_compile.load import is_xacro
 from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
 
 if TYPE_CHECKING:
@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
     from linkforge_compile.core import Robot
-    from linkforge_compile.expand.listing import ListedParameter
     from linkforge_compile.formats.urdf import Gazebo
+    from linkforge_compile.listing import ListedParameter
 
     Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument], tuple[str, ...]]
     Words: TypeAlias = str | Substitution | Sequence[str | Substitution]

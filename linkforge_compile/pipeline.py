@@ -17,29 +17,19 @@ from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnost
 from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import (
-    Arguments,
-    CliArgument,
-    ImportSite,
-    Loader,
-    SpecFile,
-    Unset,
-    arguments_from_text,
-    arguments_from_values,
-    expand,
-    is_xacro,
-)
+from linkforge_compile.expand import Arguments, CliArgument, Unset, arguments_from_text, arguments_from_values, expand
 from linkforge_compile.formats import NO_OPTIONS, Options, format_named, report_limits, require_options
 from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
+from linkforge_compile.load import ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.lower import MeshSolids, lower
 from linkforge_compile.roots import ANYWHERE, Roots
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.listing import Listing
+    from linkforge_compile.listing import Listing
 
 __all__ = [
     "CliArgument",
@@ -186,13 +176,13 @@ def parameters_of(
 
     Those of a xacro file are the arguments that it and its includes declare; a URDF declares none.
     """
-    from linkforge_compile.expand.listing import list_parameters
+    from linkforge_compile.listing import list_parameters
 
     sink, loader = Diagnostics(), Settings(packages=packages, allow_outside=allow_outside).loader(Path(path))
     listing = None
     try:
         if is_xacro(Path(path)):
-            from linkforge_compile.expand.listing import list_arguments
+            from linkforge_compile.listing import list_arguments
 
             listing = list_arguments(Path(path), loader, sink)
         elif spec := loader.open(Path(path), sink):
@@ -246,9 +236,11 @@ def compile_path(path: str | Path, settings: Settings) -> Compilation:
         return _compile(lambda loader, sink: loader.open(file, sink), file, settings)
 
     def read(loader: Loader, sink: Diagnostics) -> SpecFile | None:
-        from linkforge_compile.expand.xacro import XacroUse, open_xacro
+        from linkforge_compile.expand.arguments import xacro_arguments
+        from linkforge_compile.load.xacro import XacroUse, open_xacro
 
-        return open_xacro(XacroUse(file, ImportSite(str(path), None), settings.arguments(loader, sink)), loader, sink)
+        arguments = xacro_arguments(settings.arguments(loader, sink), sink)
+        return open_xacro(XacroUse(file, ImportSite(str(path), None), arguments), loader, sink)
 
     # What xacro expands has no parameters.
     return _compile(read, file, settings._replace(parameters=None))

@@ -30,8 +30,10 @@ MAY_IMPORT = {
     "core": "source units roots",
     "compilation": "diagnostics core",
     "importers": "banner source diagnostics limits units syntax core compilation",
-    "expand": "source diagnostics limits units syntax schema expressions importers roots paths compilation",
-    "lower": "source diagnostics limits units syntax expand core roots paths",
+    "load": "source diagnostics limits syntax schema importers roots paths compilation",
+    "expand": "source diagnostics limits units syntax schema expressions importers load paths",
+    "listing": "source diagnostics units syntax expressions importers load expand roots paths",
+    "lower": "source diagnostics limits units syntax load expand core roots paths",
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
@@ -39,18 +41,18 @@ MAY_IMPORT = {
     "compare": "source units core formats",
     "collisions": "source diagnostics syntax core checks roots",
     "pipeline": (
-        "source diagnostics limits units syntax schema importers expand lower checks formats core roots fresh_stack "
-        "gc_paused compilation"
+        "source diagnostics limits units syntax schema importers load expand listing lower checks formats core roots "
+        "fresh_stack gc_paused compilation"
     ),
     "importing": (
-        "source diagnostics limits syntax core compilation importers expand lower formats pipeline fresh_stack "
-        "gc_paused"
+        "source diagnostics limits syntax core compilation importers load expand lower formats pipeline "
+        "fresh_stack gc_paused"
     ),
-    "launch": "diagnostics formats core expand pipeline file_watcher",
-    "editor": "diagnostics units syntax schema expand lower core roots resources formats fresh_stack",
+    "launch": "diagnostics formats core load expand listing pipeline file_watcher",
+    "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "cli": (
-        "banner source diagnostics limits roots paths core checks schema expand pipeline importing formats export_spec "
-        "compare collisions editor resources file_watcher _version"
+        "banner source diagnostics limits roots paths core checks schema load expand listing pipeline importing "
+        "formats export_spec compare collisions editor resources file_watcher _version"
     ),
 }
 
@@ -137,13 +139,14 @@ def test_no_files_import_each_other():
     assert not circles
 
 
-def test_the_drawing_of_expand_has_its_modules_below_those_that_they_import():
-    folder = PACKAGE / "expand"
+@pytest.mark.parametrize("package", ["load", "expand"])
+def test_a_drawing_has_the_modules_of_its_package_below_those_that_they_import(package: str):
+    folder = PACKAGE / package
     drawn = re.findall(r"^    (\w+)  ", ast.get_docstring(ast.parse((folder / "__init__.py").read_text("utf-8"))), re.M)
     assert set(drawn) == {path.stem for path in folder.glob("*.py")} - {"__init__"}
     for place, name in enumerate(drawn):
         imported = {
-            module.rpartition(".")[2] for module in imported_modules(folder / f"{name}.py") if ".expand." in module
+            module.rpartition(".")[2] for module in imported_modules(folder / f"{name}.py") if f".{package}." in module
         }
         assert imported <= set(drawn[:place]), name
 

@@ -1,6 +1,7 @@
 """What users install: the wheel, with schemas/ and templates/ inside it, away from the repository."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -25,6 +26,14 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     subprocess.run(build, check=True, capture_output=True, timeout=120)
     (path,) = folder.glob("*.whl")
     return path
+
+
+@pytest.fixture(scope="module")
+def site(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder where the wheel is installed, for `PYTHONPATH`."""
+    folder = tmp_path_factory.mktemp("site")
+    subprocess.run((*PIP, "install", "--no-deps", "--target", folder, wheel), check=True, timeout=120)
+    return folder
 
 
 def test_the_wheel_is_built_with_the_declared_requirements(wheel: Path, tmp_path: Path):
@@ -75,12 +84,11 @@ def test_the_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path):
 LOADER = "from linkforge_compile.formats.environment import own_environment as e; print(type(e().loader).__name__)"
 
 
-def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_this_jinja2(wheel: Path, tmp_path: Path):
-    site = tmp_path / "site"
-    subprocess.run((*PIP, "install", "--no-deps", "--target", site, wheel), check=True, timeout=120)
+def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_this_jinja2(site: Path, tmp_path: Path):
+    ours = shutil.copytree(site, tmp_path / "site")
 
     def run(*words: str) -> str:
-        env = {**os.environ, "PYTHONPATH": str(site), "PYTHONSAFEPATH": "1"}
+        env = {**os.environ, "PYTHONPATH": str(ours), "PYTHONSAFEPATH": "1"}
         command = (sys.executable, *words)
         return subprocess.run(
             command, cwd=tmp_path, env=env, check=True, capture_output=True, timeout=60
@@ -91,7 +99,7 @@ def test_an_installed_wheel_uses_its_compiled_templates_as_long_as_they_are_of_t
     assert run("-c", LOADER) == "ModuleLoader\n"
     by_compiled = run(*compile_example)
     assert by_compiled == (example / "sensors.urdf").read_text("utf-8")
-    made_by = site / "linkforge_compile" / "_data" / "compiled_templates" / "jinja2.txt"
+    made_by = ours / "linkforge_compile" / "_data" / "compiled_templates" / "jinja2.txt"
     assert made_by.read_text().strip() == jinja2.__version__
     made_by.write_text("0.0\n")
     assert run("-c", LOADER) == "FileSystemLoader\n"
@@ -103,9 +111,8 @@ def test_the_linked_schema_in_the_wheel_is_made_of_the_schemas(wheel: Path):
         assert packed.read("linkforge_compile/_data/linked_schema.json").decode() == linked_schema_text()
 
 
-def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path: Path):
-    subprocess.run((*PIP, "install", "--no-deps", "--target", tmp_path / "site", wheel), check=True, timeout=120)
-    env = {**os.environ, "PYTHONPATH": str(tmp_path / "site"), "PYTHONSAFEPATH": "1"}
+def test_the_installed_command_compiles_and_has_its_schema(site: Path, tmp_path: Path):
+    env = {**os.environ, "PYTHONPATH": str(site), "PYTHONSAFEPATH": "1"}
     example = ROOT / "examples" / "01_two_link_arm"
 
     def run(*words: str) -> str:
@@ -116,7 +123,7 @@ def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path
 
     where = "import linkforge_compile; print(linkforge_compile.__file__)"
     location = subprocess.run((sys.executable, "-c", where), cwd=tmp_path, env=env, check=True, capture_output=True)
-    assert str(tmp_path) in location.stdout.decode()
+    assert str(site) in location.stdout.decode()
     assert run("compile", str(example / "two_link_arm.robot.yaml")) == (example / "two_link_arm.urdf").read_text(
         "utf-8"
     )
@@ -124,10 +131,9 @@ def test_the_installed_command_compiles_and_has_its_schema(wheel: Path, tmp_path
     assert run("explain", "LF1002") == (ROOT / "docs/diagnostics/LF1002.md").read_text("utf-8")
 
 
-def test_cmake_finds_what_pip_installs_and_compiles_with_it(wheel: Path, tmp_path: Path):
+def test_cmake_finds_what_pip_installs_and_compiles_with_it(site: Path, tmp_path: Path):
     """As in an environment that is active: its `bin` is on the PATH, and no option names linkforge."""
-    site, source, build = tmp_path / "site", tmp_path / "source", tmp_path / "build"
-    subprocess.run((*PIP, "install", "--no-deps", "--target", site, wheel), check=True, timeout=120)
+    source, build = tmp_path / "source", tmp_path / "build"
     source.mkdir()
     (source / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\nlinks: {base: }\n")
     find = "project(arm NONE)\nfind_package(linkforge_compile REQUIRED)\nlinkforge_add_robot(arm.robot.yaml)\n"

@@ -224,6 +224,6 @@ def as_urdfs(
 
 
 def _is_xacro(word: str) -> bool:
-    from linkforge_compile.expand import is_xacro
+    from linkforge_compile.load import is_xacro
 
     return is_xacro(Path(word))

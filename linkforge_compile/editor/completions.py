@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from linkforge_compile.editor.vocabulary import Entries, Vocabulary
-from linkforge_compile.expand.listing import ListedParameter
+from linkforge_compile.listing import ListedParameter
 from linkforge_compile.schema.json_schema import PATCH_SUFFIX, Json, Schema, branches, mapping, reference
 from linkforge_compile.syntax.nodes import scalar_value
 

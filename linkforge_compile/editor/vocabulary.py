@@ -12,16 +12,11 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand import (
-    Arguments,
-    Instance,
-    Loader,
-    Unset,
-    expand,
-)
-from linkforge_compile.expand.listing import ListedParameter, list_parameters, list_used
-from linkforge_compile.expand.uses import joint_name_of
+from linkforge_compile.expand import Arguments, Instance, Unset, expand
+from linkforge_compile.expand.instance import joint_name_of
 from linkforge_compile.fresh_stack import on_fresh_stack
+from linkforge_compile.listing import ListedParameter, list_parameters, list_used
+from linkforge_compile.load import Loader
 from linkforge_compile.lower import lower
 from linkforge_compile.roots import Roots
 from linkforge_compile.schema.shapes import Shape, shapes

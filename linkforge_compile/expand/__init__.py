@@ -1,12 +1,9 @@
-"""Turn a spec, its parameters and the files it uses into a tree of Instances with every expression computed.
+"""Turn a SpecFile, its parameters and the files it uses into a tree of Instances with every expression computed.
 
 What each module knows; it imports only those above it:
 
-    spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
-    loader            the files of one compile, each read once -> SpecFile
-    uses              what a `use` or the path of a mesh names -> SpecFile; the Instance that a use becomes
+    instance          the Instance that a use of a file becomes
     values            a node <-> its value in expressions; where a value was written
-    angle_tags        the tags `!degrees` and `!radians` of data files -> numbers
     evaluate          a node with expressions -> its value in one scope
     expand_tree       a tree with expressions, `for` and `when` -> one without
     arguments         what the user sets -> Arguments; the variants of a file
@@ -17,10 +14,7 @@ What each module knows; it imports only those above it:
     override          a patch and a tree -> the patched tree
     deletions         a tree and an override -> what else goes with deleted links; why each name is gone
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
-    xacro_answers     the questions of the xacro process -> where a package is, whether a file may be read
-    xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
     expand_uses       all of this for a file, then for each file that it uses
-    listing           what a file lets its user set, for `params`, editors and launch files
 """
 
 from __future__ import annotations
@@ -33,31 +27,19 @@ from linkforge_compile.expand.arguments import (
     arguments_from_text,
     arguments_from_values,
 )
-from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.expand.spec_tree import is_computed
-from linkforge_compile.expand.uses import (
-    COMPUTING,
-    Instance,
-    charge_entries,
-    is_xacro,
-    mesh_base,
-    mesh_finder,
-    own_name,
-    robot_part,
-)
+from linkforge_compile.expand.instance import COMPUTING, Instance, charge_entries, own_name, robot_part
+from linkforge_compile.load import Loader, SpecFile
+from linkforge_compile.load.locations import mesh_base, mesh_finder
+from linkforge_compile.load.spec_tree import is_computed
 
 __all__ = [
     "Arguments",
     "CliArgument",
-    "ImportSite",
     "Instance",
-    "Loader",
-    "SpecFile",
     "Unset",
     "arguments_from_text",
     "arguments_from_values",
     "expand",
-    "is_xacro",
 ]
 
 

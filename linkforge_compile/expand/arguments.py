@@ -13,17 +13,20 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import XACRO_ARGUMENT
 from linkforge_compile.diagnostics.codes.modules import NOT_AN_ASSIGNMENT, SET_TWICE, UNKNOWN_VARIANT
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.loader import Loader, SpecFile
-from linkforge_compile.expand.uses import is_xacro
+from linkforge_compile.load.loader import Loader, SpecFile
+from linkforge_compile.load.locations import is_xacro
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
-from linkforge_compile.units import Quantity
+from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
-    from linkforge_compile.expressions import Value
+    from linkforge_compile.expand.evaluate import Evaluator
+    from linkforge_compile.expressions import Fault, Value
+    from linkforge_compile.load.xacro import XacroArgument
 
 COMMAND_LINE = "<command line>"
 
@@ -48,13 +51,15 @@ class CliArgument(NamedTuple):
 class Arguments:
     """Values by parameter name, each with its place.
 
-    `folder` is where relative paths among them start, None for nowhere. With `as_text` they were typed: a list or map
-    is still text, to be read once the parameter's type is known. `is_partial` if some had reported errors, so that
-    missing ones are not reported. `from_python` selects the wording of messages about missing ones.
+    `folder` is where relative paths among them start, None for nowhere. `evaluator` has the scope of the place where
+    they are written, None if they hold no expressions. With `as_text` they were typed: a list or map is still text, to
+    be read once the parameter's type is known. `is_partial` if some had reported errors, so that missing ones are not
+    reported. `from_python` selects the wording of messages about missing ones.
     """
 
     entries: Mapping[str, YamlEntry] = field(default_factory=dict)
     folder: Path | None = None
+    evaluator: Evaluator | None = None
     as_text: bool = False
     is_partial: bool = False
     from_python: bool = False
@@ -158,6 +163,37 @@ def _shown(item: object) -> str:
         return repr(item)
     except ValueError:  # Python refuses to write an integer of thousands of digits
         return "…"
+
+
+def xacro_arguments(arguments: Arguments, sink: Diagnostics) -> dict[str, XacroArgument] | None:
+    """Return arguments as text, the only type that xacro has; None after a reported error."""
+    from linkforge_compile.load.xacro import XacroArgument
+
+    texts: dict[str, XacroArgument] = {}
+    for name, entry in arguments.entries.items():
+        text = _xacro_text(entry.value, arguments)
+        if isinstance(text, str):
+            texts[name] = XacroArgument(text, entry.key.span)
+        elif text is None:
+            sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
+    return None if arguments.is_partial or len(texts) < len(arguments.entries) else texts
+
+
+def _xacro_text(node: YamlNode, arguments: Arguments) -> str | Fault | None:
+    """Return an argument as text; FAULT after a reported error, None for a list, a map or nothing."""
+    from linkforge_compile.expand.values import plain_value  # with the expressions, as below
+    from linkforge_compile.expressions import Fault
+
+    if arguments.as_text and isinstance(node, YamlScalar):
+        quantity = parse_quantity(node.text)
+        return number_text(quantity.value) if quantity else node.text
+    value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    number = value.value if isinstance(value, Quantity) else value
+    if isinstance(number, int | float):
+        return number_text(number)
+    return value if isinstance(value, str | Fault) else None
 
 
 class Variants(NamedTuple):

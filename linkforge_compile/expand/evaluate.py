@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import COMPUTED_KEY, SAME_KEY, TEXT_NOT_NUMBER, TREE_TOO_LARGE
-from linkforge_compile.expand.spec_tree import ExpressionScan
 from linkforge_compile.expand.values import ExpressionTrace, Setting, plain_value, size_of
 from linkforge_compile.expressions import (
     FAULT,
@@ -26,6 +25,7 @@ from linkforge_compile.expressions import (
     parse_template,
 )
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load.spec_tree import ExpressionScan
 from linkforge_compile.source import SourceFile, Span, TracedSpan
 from linkforge_compile.syntax import (
     YamlEntry,

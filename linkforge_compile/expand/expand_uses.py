@@ -9,21 +9,20 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CYCLE, USE_TOO_DEEP
-from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants
+from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants, xacro_arguments
 from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.loader import Loader, SpecFile, with_use_trace
+from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
 from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.expand.uses import (
+from linkforge_compile.expressions import FAULT, Fault
+from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
+from linkforge_compile.load.locations import (
     SPEC_ENDINGS,
-    Instance,
-    NameReference,
     PathSite,
     Writers,
-    charge_entries,
     is_xacro,
     locate,
     mesh_base,
@@ -31,17 +30,14 @@ from linkforge_compile.expand.uses import (
     name_from,
     names_xacro,
     open_use,
-    own_name,
-    robot_part,
 )
-from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import leaves_in
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.xacro import Expansion, XacroUse
+    from linkforge_compile.load.xacro import Expansion, XacroUse
 
 MAX_DEPTH = 50
 
@@ -143,7 +139,7 @@ class _Expansion:
         spec, arguments = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
         if spec is None:
             return _unread(entry)
-        bound = BoundArguments(arguments, sink, entry.evaluator, entry.use.span)
+        bound = BoundArguments(arguments, sink, entry.use.span)
         use = _Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
@@ -157,8 +153,8 @@ class _Expansion:
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
             return None, entry.arguments
-        srdf_use = self._xacro_use(scope.site(srdf.text, srdf.span), entry, sink)
-        semantic = open_semantic(srdf_use, loader, sink) if srdf_use else None
+        srdf_use = _xacro_use(scope.site(srdf.text, srdf.span), loader, sink)
+        semantic = open_semantic(srdf_use, entry.arguments, loader, sink) if srdf_use else None
         # An SRDF that cannot be read may have used any argument.
         used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()
         spec, arguments = self._open(entry, site, used, sink)
@@ -173,18 +169,13 @@ class _Expansion:
         loader = self._state.loader
         if not names_xacro(site, loader):
             return open_use(site, loader, sink), entry.arguments.without(used or ())
-        from linkforge_compile.expand.xacro import open_xacro
+        from linkforge_compile.load.xacro import open_xacro
 
-        xacro = self._xacro_use(site, entry, sink)
-        return open_xacro(replace(xacro, used_elsewhere=used), loader, sink) if xacro else None, Arguments()
-
-    def _xacro_use(self, site: PathSite, entry: ModuleEntry, sink: Diagnostics) -> XacroUse | None:
-        from linkforge_compile.expand.xacro import XacroUse
-
-        target = locate(site, self._state.loader, sink)
-        if target is None:
-            return None
-        return XacroUse(target.path, site.used, entry.arguments, entry.evaluator, site.packages, target.package)
+        use = _xacro_use(site, loader, sink)
+        if use is None:
+            return None, Arguments()
+        texts = xacro_arguments(entry.arguments, sink)
+        return open_xacro(replace(use, arguments=texts, used_elsewhere=used), loader, sink), Arguments()
 
     def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
         """Whether a use is neither circular nor too deep; reports why not."""
@@ -210,9 +201,9 @@ def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap 
 
 def _unread(entry: ModuleEntry) -> Instance:
     """Return the Instance of a module that cannot be read; faults in its arguments are still reported."""
-    if entry.evaluator:
+    if evaluator := entry.arguments.evaluator:
         for argument in entry.arguments.entries.values():
-            entry.evaluator.value(argument.value)
+            evaluator.value(argument.value)
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 
@@ -234,15 +225,24 @@ def references_left(
     return tuple(one for one in references if not any(map(one.where.span.lies_in, removed)))
 
 
-def open_semantic(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
-    """Read an SRDF, expanded if it is a xacro; None after a reported error."""
-    from linkforge_compile.expand.xacro import Expansion, expand_xacro
+def open_semantic(use: XacroUse, arguments: Arguments, loader: Loader, sink: Diagnostics) -> Expansion | None:
+    """Read an SRDF, expanded with the arguments if it is a xacro; None after a reported error."""
+    from linkforge_compile.load.xacro import Expansion, expand_xacro
 
     if loader.roots.hold(use.path) and is_xacro(use.path):
         # The URDF, which is read next, reports arguments that neither of the two uses.
-        return expand_xacro(replace(use, used_elsewhere=None), loader, sink)
+        use = replace(use, arguments=xacro_arguments(arguments, sink), used_elsewhere=None)
+        return expand_xacro(use, loader, sink)
     file = loader.open_xml(use.path, sink, use.used if use.used.where else None)
     return Expansion(file, (file,)) if file else None
+
+
+def _xacro_use(site: PathSite, loader: Loader, sink: Diagnostics) -> XacroUse | None:
+    """Return what a site names as a xacro, without arguments; None after a reported error."""
+    from linkforge_compile.load.xacro import XacroUse
+
+    target = locate(site, loader, sink)
+    return XacroUse(target.path, site.used, packages=site.packages, package=target.package) if target else None
 
 
 def _with_semantic(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,15 +19,14 @@ from linkforge_compile.diagnostics.codes.modules import (
     NOT_CHECKED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
+    TAG_NOT_NUMBER,
 )
-from linkforge_compile.expand.angle_tags import angle_tags
 from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.loader import Loader, SpecFile
+from linkforge_compile.expand.instance import NameReference
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
-from linkforge_compile.expand.uses import NameReference, PathSite, from_base, locate, mesh_base, rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import (
     FAULT,
@@ -38,14 +38,19 @@ from linkforge_compile.expressions import (
     Scope,
     Value,
     as_text,
+    evaluate,
     kind_name,
+    parse_template,
 )
+from linkforge_compile.load.loader import Loader, SpecFile
+from linkforge_compile.load.locations import PathSite, from_base, locate, mesh_base, rebased
 from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
+from linkforge_compile.units import number_text
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -85,30 +90,21 @@ class FileScope:
         self._packages: dict[str, Path] | None = None
         self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
         self._variants = Variants() if bound.use else Variants.of(spec, state.variant)
-        self.declared = declarations(spec.tree.get("parameters"))
-        self._unset: list[Declaration] = []
-        self._sink = sink
-        self._ambiguous: set[str] = set()
-        """Names that two sections declare, which is reported; they have no value."""
-        self._parameters = {
-            name: Lazy(partial(self._parameter, declaration), declaration.key.span)
-            for name, declaration in self.declared.items()
-            if self._is_valid_name(declaration.key, "parameter")
-        }
-        self._variables = {name: self._lazy(self._variable, entry) for name, entry in self._entries("variables")}
-        self._data = {name: self._lazy(self._data_value, entry) for name, entry in self._entries("data")}
         self._prefix = prefix
         self._include_stack = include_stack
+        self._sink = sink
+        self._unset: list[Declaration] = []
+        self.declared = declarations(spec.tree.get("parameters"))
+        self._names = self._declared_names()
         self.references: list[NameReference] = []
         """The names passed to `link()` and `joint()`, for a later check."""
         values: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
             "standalone": bound.use is None,
             "prefix": prefix,
-            **self._variables,
-            **self._data,
-            **self._parameters,
-            **dict.fromkeys(self._ambiguous, FAULT),
+            **self._names["variables"],
+            **self._names["data"],
+            **self._names["parameters"],
         }
         functions: dict[str, FileFunction] = {"path": self._find_path}
         functions |= {kind: partial(self._with_prefix, kind) for kind in ("link", "joint")}
@@ -159,7 +155,7 @@ class FileScope:
         """Report what is wrong with the parameters and their arguments, used or not."""
         if not self._is_faulty("parameters", "include"):
             self._bound.report_unknown(self.declared, self._variants, self._spec)
-        for name in (*self._parameters, *self._data):
+        for name in (*self._names["parameters"], *self._names["data"]):
             self.evaluator.scope.lookup(name, self._sink)
         if self._unset and self._reports_unset and not self._bound.arguments.is_partial:
             report_unset(self._unset, self._bound, self._variants)
@@ -174,46 +170,38 @@ class FileScope:
         Other faults, such as a division by zero, do not matter in a variable that is not used.
         """
         self.evaluator = replace(self.evaluator, sink=_TextFaultSink(self._sink))
-        for name in self._variables:
+        for name in self._names["variables"]:
             self.evaluator.scope.lookup(name, self.evaluator.sink)
         for setting in self._variants.entries:
             self.evaluator.value(setting.value)
 
-    def _parameter(self, declaration: Declaration) -> Value | Fault:
+    def _declared_names(self) -> dict[str, dict[str, Fault | Lazy]]:
+        """Return the values of the names that each section declares; of two sections with one name, reported ones."""
+        compute = {"parameters": self._parameter, "variables": self._variable, "data": self._data_value}
+        names: dict[str, dict[str, Fault | Lazy]] = {section: {} for section in _KINDS}
+        first: dict[str, tuple[str, YamlScalar]] = {}
+        for section, kind in _KINDS.items():
+            for entry in self._spec.tree.section(section).values():
+                other, key = first.setdefault(entry.name, (section, entry.key))
+                if other != section:
+                    names[other][entry.name] = FAULT
+                    notes = [Note(f"the {_KINDS[other]} is declared here", key.span)]
+                    kinds = f"a {_KINDS[other]} and a {kind}"
+                    self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))
+                elif self._is_valid_name(entry.key, kind):
+                    names[section][entry.name] = Lazy(partial(compute[section], entry), entry.key.span)
+        return names
+
+    def _parameter(self, entry: YamlEntry) -> Value | Fault:
+        declaration = self.declared[entry.name]
         value, setting = parameter_value(declaration, self._bound, self._variants, self._spec, self.evaluator)
         if setting is not None:
             self.evaluator.settings[declaration.name] = setting
         if value is not None:
-            is_file = declaration.type is not None and declaration.type.name == "file"
-            return self._as_path(value) if is_file else value
+            return self._as_path(value) if declaration.is_file else value
         if not declaration.is_faulty:
             self._unset.append(declaration)
         return FAULT
-
-    def _entries(self, section: str) -> Iterator[tuple[str, YamlEntry]]:
-        """Yield the entries of `variables` or `data` with valid names that no section before declares."""
-        kind = _KINDS[section]
-        for entry in self._spec.tree.section(section).values():
-            other = self._declared_before(entry.name, section)
-            if other:
-                self._ambiguous.add(entry.name)
-                notes = [Note(f"the {other[0]} is declared here", other[1].span)]
-                kinds = f"a {other[0]} and a {kind}"
-                self._sink.report(NAME_OF_TWO_KINDS.at(entry.key.span, name=entry.name, kinds=kinds, notes=notes))
-            elif self._is_valid_name(entry.key, kind):
-                yield entry.name, entry
-
-    def _declared_before(self, name: str, section: str) -> tuple[str, YamlScalar] | None:
-        """Return the kind and the key of the same name in a section before this one."""
-        for other, kind in _KINDS.items():
-            if other == section:
-                return None
-            if name in (declared := self._spec.tree.section(other)):
-                return kind, declared[name].key
-        return None
-
-    def _lazy(self, compute: Callable[[YamlEntry], Value | Fault], entry: YamlEntry) -> Lazy:
-        return Lazy(partial(compute, entry), entry.key.span)
 
     def _variable(self, entry: YamlEntry) -> Value | Fault:
         self.evaluator.settings[entry.name] = Setting(Kind.VARIABLE, entry.value, self.evaluator)
@@ -232,7 +220,7 @@ class FileScope:
             return FAULT
         site = self.site(text, self.evaluator.place(entry.value))
         target = locate(site, self._loader, self._sink)
-        tags = angle_tags(self._sink)
+        tags = {tag: partial(_angle, self._sink, tag) for tag in _ANGLE_TAGS}
         node = self._loader.open_data(target.path, self._sink, tags, site.used) if target else None
         if node is None:
             return FAULT
@@ -242,11 +230,7 @@ class FileScope:
 
     def _paths_elsewhere(self) -> dict[SourceFile, dict[str, Lazy]]:
         """Return the path parameters as seen from each included file that lies in another folder."""
-        paths = [
-            one
-            for one in self.declared.values()
-            if one.type is not None and one.type.name == "file" and one.name in self._parameters
-        ]
+        paths = [one for name, one in self.declared.items() if one.is_file and name in self._names["parameters"]]
         return {
             file: {path.name: Lazy(partial(self._seen_from, part, path.name), path.key.span) for path in paths}
             for file, part in self._spec.included.items()
@@ -289,6 +273,24 @@ class FileScope:
 
     def _is_faulty(self, *sections: str) -> bool:
         return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
+
+
+_ANGLE_TAGS = {"!degrees": math.radians, "!radians": float}
+"""xacro's YAML tags for angles, which data files may use."""
+
+
+def _angle(sink: Diagnostics, tag: str, scalar: YamlScalar) -> YamlNode:
+    """Return the angle with a tag as a bare number of radians; it is a number or an expression such as `pi/2`.
+
+    It has no unit, as in xacro, because vendors also write `max_velocity: !degrees 180`.
+    """
+    template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
+    value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
+        return YamlFault(scalar.span)
+    radians = _ANGLE_TAGS[tag](float(value))
+    return YamlScalar(number_text(radians), radians, scalar.span)
 
 
 class _FaultyScope(Scope):

@@ -20,10 +20,10 @@ from linkforge_compile.expand.defaults import with_frames_as_joints
 from linkforge_compile.expand.deletions import deleted_names, report_lost, without_links
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
-from linkforge_compile.expand.loader import SpecFile
+from linkforge_compile.expand.instance import joint_name_of
 from linkforge_compile.expand.override import Override, apply_patch, report_empty
-from linkforge_compile.expand.uses import joint_name_of
 from linkforge_compile.expand.values import describe_node
+from linkforge_compile.load.loader import SpecFile
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
@@ -33,8 +33,8 @@ from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, Ya
 class ModuleEntry:
     """One entry: `ref` is it without `with` and `override`, `use` the file name, None for none.
 
-    `arguments` are those of `with`, to be computed by `evaluator` unless that is None. If `is_named` is false, the
-    name or the prefix is faulty, so that the final names in the module are unknown. `overrides` apply in order.
+    `arguments` are those of `with`. If `is_named` is false, the name or the prefix is faulty, so that the final names
+    in the module are unknown. `overrides` apply in order.
     """
 
     name: str
@@ -43,7 +43,6 @@ class ModuleEntry:
     prefix: str = ""
     is_named: bool = True
     arguments: Arguments = field(default_factory=Arguments)
-    evaluator: Evaluator | None = None
     overrides: tuple[Override, ...] = ()
 
 
@@ -78,19 +77,19 @@ def _read_entry(
         return ModuleEntry(name, SourceRef(YamlFault(body.span), entry.key, include_stack), is_named=False)
     fields = expand_node(body.without("with", "override"), evaluator, _entry_shape())
     assert isinstance(fields, YamlMap), "a map that is computed is a map"
-    arguments, is_computed = _arguments(body, name, evaluator, folder)
+    arguments = _arguments(body, name, evaluator, folder)
+    # What is computed holds no further expressions.
+    arguments = arguments if body is written else replace(arguments, evaluator=None)
     override = _override(body.get("override"), name, evaluator)
     if key is None:
         # Names derived from the faulty name, such as that of the joint, are not checked.
         fault = SourceRef(YamlFault(body.span), entry.key, include_stack)
-        inner = None if is_computed else evaluator
-        return ModuleEntry(name, fault, is_named=False, arguments=arguments, evaluator=inner)
+        return ModuleEntry(name, fault, is_named=False, arguments=arguments)
     read = ModuleEntry(
         name,
         SourceRef(fields, entry.key, include_stack),
         is_named=not isinstance(override, YamlFault),
         arguments=arguments,
-        evaluator=None if is_computed or body is not written else evaluator,
         overrides=() if override is None or isinstance(override, YamlFault) else (override,),
     )
     return with_fields(read, fields, evaluator.sink)
@@ -142,23 +141,20 @@ def _scalar_field(
     return _report_field(node, field, name, expected, sink)
 
 
-def _arguments(body: YamlMap, name: str, evaluator: Evaluator, folder: Path | None) -> tuple[Arguments, bool]:
-    """Return the arguments of `with`, and whether they are computed already."""
+def _arguments(body: YamlMap, name: str, evaluator: Evaluator, folder: Path | None) -> Arguments:
+    """Return the arguments of `with`, with the keys computed, and the values if `with` is itself an expression."""
     written = body.get("with")
     computed = expand_node(written, evaluator) if isinstance(written, YamlScalar) else written
+    none = Arguments(folder=folder, evaluator=evaluator if computed is written else None)
     if computed is None or (isinstance(computed, YamlScalar) and computed.value is None):
-        return Arguments(folder=folder), False
+        return none
     if not isinstance(computed, YamlMap):
         if not isinstance(computed, YamlFault):
             _report_field(computed, "with", name, "a map of parameters", evaluator.sink)
-        return Arguments(folder=folder, is_partial=True), False
-    return _with_computed_keys(computed, evaluator, folder), computed is not written
-
-
-def _with_computed_keys(section: YamlMap, evaluator: Evaluator, folder: Path | None) -> Arguments:
+        return replace(none, is_partial=True)
     entries: dict[str, YamlEntry] = {}
     is_partial = False
-    for entry in section:
+    for entry in computed:
         key = evaluator.key(entry.key)
         if key is None:
             is_partial = True
@@ -166,7 +162,7 @@ def _with_computed_keys(section: YamlMap, evaluator: Evaluator, folder: Path | N
             evaluator.report_same_key(key, entries[key.text])
         else:
             entries[key.text] = YamlEntry(key, entry.value)
-    return Arguments(entries, folder, is_partial=is_partial)
+    return replace(none, entries=entries, is_partial=is_partial)
 
 
 def _report_field(node: YamlNode, field: str, name: str, expected: str, sink: Diagnostics) -> YamlFault:

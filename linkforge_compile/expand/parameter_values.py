@@ -20,7 +20,6 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, alternatives, listed
 from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
-from linkforge_compile.expand.loader import AnnotatingSink, SpecFile
 from linkforge_compile.expand.parameters import (
     PARAMETER_TYPES,
     REFUSED_STEPS,
@@ -33,10 +32,11 @@ from linkforge_compile.expand.parameters import (
     resolve_type,
     unquoted,
 )
-from linkforge_compile.expand.uses import rebased
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
+from linkforge_compile.load.loader import AnnotatingSink, SpecFile
+from linkforge_compile.load.locations import rebased
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
@@ -75,13 +75,12 @@ class Writer:
 class BoundArguments:
     """The arguments of one use of a file.
 
-    `sink` receives faults of the place where they are written, and `evaluator` has the scope of that place, None if
-    they hold no expressions. `use` is the `use` that must set required parameters, None for the compiled file.
+    `sink` receives faults of the place where they are written. `use` is the `use` that must set required parameters,
+    None for the compiled file.
     """
 
     arguments: Arguments
     sink: Diagnostics
-    evaluator: Evaluator | None = None
     use: Span | None = None
 
     def report_unknown(self, declared: dict[str, Declaration], variants: Variants, spec: SpecFile) -> None:
@@ -119,7 +118,7 @@ class BoundArguments:
         while entry:
             nodes.append(entry.value)
             entry = entry.replaced
-        return [Setting(kind, one, self.evaluator, one.span.file.text if is_typed else "") for one in nodes]
+        return [Setting(kind, one, self.arguments.evaluator, one.span.file.text if is_typed else "") for one in nodes]
 
 
 def _numbers_in(node: YamlScalar) -> YamlList | None:
@@ -143,7 +142,7 @@ def parameter_value(
     declared = [Note("the parameter is declared here", declaration.key.span)]
     candidates: list[tuple[YamlNode, Writer, list[Setting]]] = []
     if (node := bound.node(declaration.name, type_)) is not None:
-        writer = Writer(AnnotatingSink(bound.sink, declared), bound.evaluator, bound.arguments.folder)
+        writer = Writer(AnnotatingSink(bound.sink, declared), bound.arguments.evaluator, bound.arguments.folder)
         candidates.append((node, writer, bound.settings(declaration.name, node)))
     else:
         _report_disagreement(parameter, variants, evaluator)

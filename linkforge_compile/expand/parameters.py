@@ -46,6 +46,10 @@ class Declaration:
     def name(self) -> str:
         return self.key.text
 
+    @property
+    def is_file(self) -> bool:
+        return self.type is not None and self.type.name == "file"
+
 
 def declarations(section: YamlNode | None) -> dict[str, Declaration]:
     """Return the declarations of the section `parameters` by name."""

@@ -2,39 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeVar
 
 from linkforge_compile.core.fields import (
     Child,
     Children,
     Colour,
     Flag,
-    Name,
     Noise,
     Number,
     Parameters,
     Pose,
-    Reference,
     Spec,
     Vector,
     field_specs,
+    key_fields,
 )
 from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Box, Color, Geometry, Mesh, Sphere, Transform, Vector3
 from linkforge_compile.core.models.ros2_control import Interface, Ros2Control
 from linkforge_compile.core.models.sensor import Sensor
+from linkforge_compile.core.models.srdf import SemanticRobotDescription
 from linkforge_compile.core.part import Element, Part
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import Dimension, FieldUnit, Motion
+
+E = TypeVar("E", bound=Element)
 
 _ZERO = Vector3(0.0, 0.0, 0.0)
 
 _FIRST_FIELDS: Mapping[type, tuple[str, ...]] = {
     Sensor: ("type", "link_name", "origin", "update_rate", "always_on", "visualize", "topic", "frame", "plugin"),
     Ros2Control: ("type", "hardware_plugin", "parameters"),
+    SemanticRobotDescription: (
+        "virtual_joints",
+        "groups",
+        "group_states",
+        "end_effectors",
+        "passive_joints",
+        "disabled_collisions",
+        "enabled_collisions",
+        "no_default_collision_links",
+        "joint_properties",
+    ),
 }
 """Fields that a spec writes first, for classes whose constructors have another order."""
 
@@ -109,7 +122,7 @@ def _export(
         case Children(kinds=(kind,)) if kind is Interface:
             return _export_interfaces(builder, value)
         case Children():
-            return _export_children(builder, value)
+            return export_children(builder, value, with_origins=False)
         case Child(kinds=(kind,)) if kind is GazeboPlugin:
             return export_plugin(builder, value, is_named=True)
         case Child():
@@ -149,19 +162,35 @@ def _export_interfaces(builder: SpecBuilder, names: Sequence[str]) -> YamlNode |
     return builder.named("interface", nodes, with_origins=False)
 
 
-def _export_children(builder: SpecBuilder, parts: Sequence[Element]) -> YamlNode | None:
-    """Return a map of elements by name, or a list where they have none."""
-    nodes = [export_element(builder, part) for part in parts]
-    if not parts or not (key := _key_field(type(parts[0]))):
-        return builder.list_of(nodes) if nodes else None
-    names = [str(getattr(part, key)) for part in parts]
-    return builder.named(type(parts[0]).TAG.replace("_", " "), zip(names, nodes, strict=True), with_origins=False)
+def export_children(
+    builder: SpecBuilder,
+    parts: Sequence[E],
+    export: Callable[[SpecBuilder, E], YamlNode] = export_element,
+    *,
+    with_origins: bool = True,
+) -> YamlNode | None:
+    """Return a map of elements by name, or by two names, or a list where they have none; None for no elements."""
+    if not parts:
+        return None
+    kind, nodes = type(parts[0]), [_in_short_form(builder, part, export(builder, part)) for part in parts]
+    names = [[str(getattr(part, field)) for field in key_fields(kind)] for part in parts]
+    noun = (kind.TITLE or kind.TAG.replace("_", " ")).partition(" '")[0]
+    match key_fields(kind):
+        case (_, _):
+            pairs = ((outer, inner, node) for (outer, inner), node in zip(names, nodes, strict=True))
+            return builder.nested(noun, pairs, first_origin_only=True)
+        case (_,):
+            return builder.named(noun, zip((name for [name] in names), nodes, strict=True), with_origins=with_origins)
+    return builder.list_of(nodes)
 
 
-def _key_field(kind: type) -> str | None:
-    """Return the field of a class that is the key of its elements."""
-    specs = field_specs(kind).items()
-    return next((name for name, spec in specs if isinstance(spec, Name | Reference) and not spec.key), None)
+def _in_short_form(builder: SpecBuilder, part: Element, node: YamlNode) -> YamlNode:
+    """Return the value of an object that has only the field of the short form, null if it has none."""
+    short = part.SHORT_FORM
+    if not (short and isinstance(node, YamlMap) and node.entries.keys() <= {short}):
+        return node
+    entry = node.entries.get(short)
+    return builder.located(entry.value if entry else builder.word(None), part.source, short)
 
 
 def export_plugin(builder: SpecBuilder, plugin: GazeboPlugin, *, is_named: bool) -> YamlMap:

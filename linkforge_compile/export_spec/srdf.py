@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
+from linkforge_compile.core.fields import Children, field_specs
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.core.models.srdf import (
-    CollisionPair,
     GroupState,
     JointProperty,
     LinkSphereApproximation,
@@ -17,9 +17,8 @@ from linkforge_compile.core.models.srdf import (
     SemanticRobotDescription,
     SrdfSphere,
 )
-from linkforge_compile.core.part import Element
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.elements import export_element
+from linkforge_compile.export_spec.elements import export_children, export_element, export_fields
 from linkforge_compile.source import SourceRef
 from linkforge_compile.syntax import YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import POSITION, Dimension
@@ -39,35 +38,28 @@ def export_semantic(
     The states of a group are written together, as are the pairs of a first link and the properties of a joint.
     """
     states = {(state.group, state.name): state for state in semantic.group_states}
-    spheres = ((one.link, _spheres(builder, one)) for one in semantic.link_sphere_approximations)
-    properties = ((one.joint_name, one.property_name, _property(builder, one)) for one in semantic.joint_properties)
-    node = builder.element(
-        semantic,
-        virtual_joints=builder.named(
-            "virtual joint", ((one.name, export_element(builder, one)) for one in semantic.virtual_joints)
-        ),
-        groups=builder.named("planning group", ((one.name, _group(builder, one)) for one in semantic.groups)),
-        group_states=builder.nested(
-            "state", ((one.group, one.name, _state(builder, one, joints, states)) for one in semantic.group_states)
-        ),
-        end_effectors=builder.named(
-            "end effector", ((one.name, export_element(builder, one)) for one in semantic.end_effectors)
-        ),
-        passive_joints=_passive_joints(builder, semantic.passive_joints),
-        disabled_collisions=_pairs(builder, semantic.disabled_collisions),
-        enabled_collisions=_pairs(builder, semantic.enabled_collisions),
-        no_default_collision_links=builder.texts(semantic.no_default_collision_links),
-        joint_properties=builder.nested("property", properties, first_origin_only=True),
-        link_sphere_approximations=builder.named("sphere approximation", spheres),
-    )
+    positions = ((one.group, one.name, _state(builder, one, joints, states)) for one in semantic.group_states)
+    by_hand = {
+        "groups": export_children(builder, semantic.groups, _group),
+        "group_states": builder.nested("state", positions),
+        "passive_joints": _passive_joints(builder, semantic.passive_joints),
+        "joint_properties": export_children(builder, semantic.joint_properties, _property),
+        "link_sphere_approximations": export_children(builder, semantic.link_sphere_approximations, _spheres),
+    }
+    others = {
+        spec.key or name: export_children(builder, getattr(semantic, name))
+        for name, spec in field_specs(SemanticRobotDescription).items()
+        if isinstance(spec, Children) and spec.key not in by_hand
+    }
+    node = export_element(builder, semantic, **by_hand, **others)
     return node if len(node) else None
 
 
 def _passive_joints(builder: SpecBuilder, joints: Sequence[PassiveJoint]) -> YamlNode | None:
-    """Return a list of names, or a map where one of them has extras."""
-    if not any(map(_has_extras, joints)):
-        return builder.texts([joint.name for joint in joints])
-    return builder.named("passive joint", ((joint.name, export_element(builder, joint)) for joint in joints))
+    """Return a list of names, or a map where one of them has more."""
+    if any(len(export_element(builder, joint)) for joint in joints):
+        return export_children(builder, joints)
+    return builder.texts([joint.name for joint in joints])
 
 
 def _group(builder: SpecBuilder, group: PlanningGroup) -> YamlMap:
@@ -76,9 +68,7 @@ def _group(builder: SpecBuilder, group: PlanningGroup) -> YamlMap:
         group,
         chain=chains[0] if len(chains) == 1 else None,
         chains=builder.list_of(chains) if len(chains) > 1 else None,
-        links=builder.texts(group.links),
-        joints=builder.texts(group.joints),
-        subgroups=builder.texts(group.subgroups),
+        **export_fields(builder, group, without=("chains",)),
     )
 
 
@@ -117,35 +107,16 @@ def _prefix_of(state: GroupState) -> str:
     return state.group.removesuffix(group.text) if isinstance(group, YamlScalar) else ""
 
 
-def _pairs(builder: SpecBuilder, pairs: Sequence[CollisionPair]) -> YamlMap | None:
-    """Return the reasons by the first link and the second."""
-    nodes = ((one.link1, one.link2, _pair(builder, one)) for one in pairs)
-    return builder.nested("collision pair", nodes, first_origin_only=True)
+def _property(builder: SpecBuilder, one: JointProperty) -> YamlMap:
+    return export_element(builder, one, value=builder.free(one.value))
 
 
-def _pair(builder: SpecBuilder, pair: CollisionPair) -> YamlNode:
-    if _has_extras(pair):
-        return export_element(builder, pair)
-    return builder.located(builder.word(pair.reason), pair.source, "reason")
-
-
-def _property(builder: SpecBuilder, one: JointProperty) -> YamlNode:
-    value = builder.located(builder.free(one.value), one.source, "value")
-    return builder.element(one, value=value) if _has_extras(one) else value
-
-
-def _spheres(builder: SpecBuilder, approximation: LinkSphereApproximation) -> YamlNode:
+def _spheres(builder: SpecBuilder, approximation: LinkSphereApproximation) -> YamlMap:
     spheres = builder.list_of(_sphere(builder, sphere) for sphere in approximation.spheres)
-    if _has_extras(approximation):
-        return builder.element(approximation, spheres=spheres)
-    return builder.located(spheres, approximation.source, "spheres")
+    return export_element(builder, approximation, spheres=spheres)
 
 
 def _sphere(builder: SpecBuilder, sphere: SrdfSphere) -> YamlMap:
+    """Return a sphere, whose `center` is three fields of its class."""
     center = builder.numbers((sphere.center_x, sphere.center_y, sphere.center_z), Dimension.LENGTH)
-    return builder.element(sphere, center=center, radius=builder.number(sphere.radius, Dimension.LENGTH))
-
-
-def _has_extras(part: Element) -> bool:
-    """Whether a part has extras, for which its short form has no place."""
-    return bool(part.extra_elements or part.extra_attributes or part.extra_inside)
+    return export_element(builder, sphere, center=center)

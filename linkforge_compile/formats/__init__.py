@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
@@ -82,11 +83,15 @@ def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ())
 def render_documents(robot: Robot, templates: TemplateFolder, options: Options, banner: str) -> dict[str, str]:
     """Return what each document's template of a folder makes of the robot, by the document's name.
 
+    The views of formats are made only if a template uses them.
+
     Raises:
-        TemplateError: with all that is wrong with the templates.
-        RobotGeneratorError: for a robot whose text XML cannot hold.
+        TemplateError: with all that is wrong with the templates, and for a view that cannot be made of the robot.
         ValueError: for a value of an option that is not one of its choices.
 
     """
+    from linkforge_compile.formats.deferred_view import DeferredView
+
     require_options(options)
-    return templates.render({"robot": robot} | {one.name: one.view(robot, options) for one in FORMATS}, banner)
+    views = {one.name: DeferredView(partial(one.view, robot, options)) for one in FORMATS}
+    return templates.render({"robot": robot, **views}, banner)

@@ -135,8 +135,7 @@ def render_templates(
     A link among them leads within the folder's repository, unless `allow_outside` lets it lead anywhere.
 
     Raises:
-        TemplateError: with all that is wrong with the templates.
-        RobotGeneratorError: for a robot whose text XML cannot hold.
+        TemplateError: with all that is wrong with the templates, and for a robot whose text XML cannot hold.
         OSError: for a folder that cannot be read.
         ValueError: for a folder without templates, and for another `gazebo` than `gz` or `classic`.
 

@@ -60,9 +60,11 @@ def read_element(
     require_parts(reader, kind, without=first)
     entries = {**first}
     for spec in field_specs(kind).values():
-        if spec.key and spec.key in readers:
+        if not spec.key or spec.key in entries:
+            continue
+        if spec.key in readers:
             entries[spec.key] = readers[spec.key](reader)
-        elif spec.key and spec.xml and spec.key not in first:
+        elif spec.xml:
             entries[spec.key] = _read(reader, spec, motion, names)
     others = {key: read(reader) for key, read in readers.items() if key not in entries}
     return reader.map(**entries, **others)

@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from linkforge_compile.core.models.srdf import Chain, EndEffector, VirtualJoint
+from linkforge_compile.core.models.srdf import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    JointProperty,
+    LinkSphereApproximation,
+    PassiveJoint,
+    PlanningGroup,
+    SrdfSphere,
+    VirtualJoint,
+)
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import OTHER_ROBOT
 from linkforge_compile.importers.document import Imported, place_comments
@@ -171,17 +181,19 @@ def _subgroups_first(groups: Iterable[XmlElement]) -> list[XmlElement]:
 def _group(group: ElementReader, names: SemanticNames) -> YamlMap:
     """Read a planning group whose name is taken."""
     chains = group.children("chain", lambda chain: read_element(chain, Chain, names=names.by_kind))
-    links = _read_references(group, "link", "name", "link", names)
-    joints = _read_references(group, "joint", "name", "joint", names)
-    subgroups = _read_references(group, "group", "name", "group", names)
-    if not (chains or links or joints or subgroups):
-        raise group.cannot_represent("nothing in it is a member that the robot has")
-    return group.map(
-        **{"chain" if len(chains) == 1 else "chains": group.draft.one_or_list(chains)},
-        links=links,
-        joints=joints,
-        subgroups=subgroups,
+    first = {"chains": None, "chain" if len(chains) == 1 else "chains": group.draft.one_or_list(chains)}
+    node = read_element(
+        group,
+        PlanningGroup,
+        names=names.by_kind,
+        first=first,
+        links=lambda one: _read_references(one, "link", "name", "link", names),
+        joints=lambda one: _read_references(one, "joint", "name", "joint", names),
+        subgroups=lambda one: _read_references(one, "group", "name", "group", names),
     )
+    if node.entries.keys().isdisjoint(("chain", "chains", "links", "joints", "subgroups")):
+        raise group.cannot_represent("nothing in it is a member that the robot has")
+    return node
 
 
 def _state(state: ElementReader, names: SemanticNames) -> YamlMap:
@@ -222,7 +234,7 @@ def _passive_joints(robot: ElementReader, names: SemanticNames) -> YamlNode | No
         name = joint.element.attributes["name"]
         if name.value not in names.joints:
             raise CannotRepresentError(f"there is no joint named '{name.value}'", name.span)
-        return joint.map()
+        return read_element(joint, PassiveJoint, names=names.by_kind)
 
     joints = read_named(robot, "passive_joint", read)
     if any(isinstance(node, YamlMap) and len(node) for _, node in joints.values()):
@@ -276,35 +288,50 @@ def _read_pairs(robot: ElementReader, tag: str, names: SemanticNames) -> YamlMap
 
 
 def _pair(pair: ElementReader, names: SemanticNames) -> YamlNode:
-    """Read a pair of links: its reason, null for none, or an object where it has extras."""
+    """Read a pair of links: its reason, null for none, or an object where it has more."""
     for end in ("link1", "link2"):
         read_reference(pair, end, "link", names.by_kind)
-    reason = pair.attribute("reason") if pair.element.get("reason") is not None else None
-    if pair.is_used_up():
-        return pair.draft.word(reason.value, reason.span) if reason else YamlScalar("null", None, pair.span)
-    return pair.map(reason=pair.draft.text(reason.value, reason.span) if reason else None)
+    return _in_short_form(pair, read_element(pair, CollisionPair, names=names.by_kind), "reason")
 
 
 def _property(one: ElementReader, names: SemanticNames) -> YamlNode:
-    """Read a property of a joint: its value, or an object where it has extras."""
+    """Read a property of a joint: its value, or an object where it has more."""
     read_reference(one, "joint_name", "joint", names.by_kind)
     one.attribute("property_name")
-    attribute = one.attribute("value")
-    value = one.draft.word(attribute.value, attribute.span)
-    return value if one.is_used_up() else one.map(value=value)
+
+    def value(one: ElementReader) -> YamlNode:
+        attribute = one.attribute("value")
+        return one.draft.word(attribute.value, attribute.span)
+
+    return _in_short_form(one, read_element(one, JointProperty, names=names.by_kind, value=value), "value")
 
 
 def _sphere_approximations(robot: ElementReader, names: SemanticNames) -> Named:
+    def spheres(approximation: ElementReader) -> YamlNode:
+        return approximation.draft.list_of(approximation.children("sphere", _sphere), approximation.span)
+
     def read(approximation: ElementReader) -> YamlNode:
         link = approximation.element.attributes["link"]
         if link.value not in names.links:
             raise CannotRepresentError(f"there is no link named '{link.value}'", link.span)
-        spheres = approximation.draft.list_of(approximation.children("sphere", _sphere), approximation.span)
-        return spheres if approximation.is_used_up() else approximation.map(spheres=spheres)
+        node = read_element(approximation, LinkSphereApproximation, names=names.by_kind, spheres=spheres)
+        return _in_short_form(approximation, node, "spheres")
 
     return read_named(robot, "link_sphere_approximation", read, "link")
 
 
 def _sphere(sphere: ElementReader) -> YamlMap:
+    """Read a sphere, whose `center` is three fields of its class; a negative radius is reported at the whole sphere."""
     sphere.require_attributes(["center", "radius"])
-    return sphere.map(center=sphere.numbers("center", 3), radius=sphere.number("radius"))
+    center, radius = sphere.numbers("center", 3), sphere.number("radius")
+    return read_element(sphere, SrdfSphere, first={"center": center, "radius": radius})
+
+
+def _in_short_form(reader: ElementReader, node: YamlMap, key: str) -> YamlNode:
+    """Return the value of an object that has only this key, null where it has none."""
+    if node.entries.keys() - {key} or not reader.is_used_up():
+        return node
+    value = node.get(key) or YamlScalar("null", None, reader.span)
+    if attribute := reader.element.get(key):
+        return reader.draft.word(attribute, value.span)
+    return value

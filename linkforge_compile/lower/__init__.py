@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes import model
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT, UNKNOWN_LINK
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
-from linkforge_compile.expand.uses import Instance, NameReference
+from linkforge_compile.expand.instance import Instance, NameReference
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.file import lower_file, unresolved_of
 from linkforge_compile.lower.joint import check_joint_defaults, check_positions_of_module_joints

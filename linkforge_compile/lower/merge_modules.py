@@ -12,7 +12,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
 from linkforge_compile.diagnostics.codes.names import MODULES_SHARE_NAMES, NAMES_OF_THIS_FILE, OWN_ATTRIBUTE_STAYS
-from linkforge_compile.expand.uses import Instance, joint_name_of
+from linkforge_compile.expand.instance import Instance, joint_name_of
 from linkforge_compile.lower.file import LoweredFile, unresolved_of
 from linkforge_compile.lower.mount import (
     ModuleJoint,

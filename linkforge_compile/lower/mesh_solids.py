@@ -22,9 +22,9 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
-from linkforge_compile.expand.loader import with_use_trace
-from linkforge_compile.expand.uses import FindMesh
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load.loader import with_use_trace
+from linkforge_compile.load.locations import FindMesh
 from linkforge_compile.paths import as_typed, misspelt_part, path_base, searched_note
 from linkforge_compile.roots import identity
 from linkforge_compile.source import SourceRef, Span

@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.model import (
     MOUNT_SAYS_ENDS,
     TWO_MOUNTS,
 )
-from linkforge_compile.expand.uses import Instance, joint_name_of
+from linkforge_compile.expand.instance import Instance, joint_name_of
 from linkforge_compile.lower.elements import lower_pose
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.joint import JointEnds, joint_between

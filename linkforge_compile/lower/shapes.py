@@ -28,7 +28,7 @@ from linkforge_compile.diagnostics.codes.model import (
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.uses import from_base, no_mesh
+from linkforge_compile.load.locations import from_base, no_mesh
 from linkforge_compile.lower.elements import extras_of, lower_element
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids

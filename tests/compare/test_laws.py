@@ -142,7 +142,7 @@ orders_of_shapes = st.lists(st.sampled_from(("collision", "visual", *COLORS)), m
 """Two orders of the same shapes: spheres by their radius [m], each a collision, a visual or a visual of a color."""
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(orders_of_shapes)
 def test_an_order_is_reported_exactly_if_mujoco_shows_another_color(orders: tuple[list[tuple[int, str]], ...]):
     before, after = (Robot("r", links=[link_of(shapes)]) for shapes in orders)

@@ -14,7 +14,7 @@ from tests.strategies import prefixes, robots
 COLLECTIONS = ("links", "joints", "sensors", "transmissions", "ros2_controls", "gazebo_elements", "extra_elements")
 
 # No name that is drawn holds a t or a y, so "at" and "by" are free.
-some = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+some = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 @some

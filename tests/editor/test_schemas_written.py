@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from linkforge_compile.editor import Vocabulary, workspace_text
 from linkforge_compile.editor.bundle import bundle_text
 from linkforge_compile.editor.vocabulary import UsedFile
-from linkforge_compile.expand.listing import ListedParameter
+from linkforge_compile.listing import ListedParameter
 from linkforge_compile.schema.registry import IDENTIFIER, linked_schema_text
 from tests.cli.in_process import linkforge
 

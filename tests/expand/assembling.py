@@ -6,7 +6,8 @@ from textwrap import dedent
 from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand import Instance, Loader, Unset, arguments_from_text, arguments_from_values, expand
+from linkforge_compile.expand import Instance, Unset, arguments_from_text, arguments_from_values, expand
+from linkforge_compile.load import Loader
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 

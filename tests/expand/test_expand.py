@@ -4,9 +4,10 @@ import pytest
 
 from linkforge_compile import compile_text
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.expand import Loader, Unset, arguments_from_text, expand
+from linkforge_compile.expand import Unset, arguments_from_text, expand
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load import Loader
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlFault, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, Quantity

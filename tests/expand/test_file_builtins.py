@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file
-from linkforge_compile.expand.uses import Instance
+from linkforge_compile.expand.instance import Instance
 from tests.expand.assembling import assemble, metadata_of, write
 
 

@@ -5,8 +5,9 @@ import pytest
 from linkforge_compile import compile_file, render_urdf
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import INCLUDE_TOO_DEEP, TOO_MANY_INCLUDES
-from linkforge_compile.expand import Loader, arguments_from_text, expand
-from linkforge_compile.expand.spec_tree import MAX_DEPTH, MAX_INCLUDES
+from linkforge_compile.expand import arguments_from_text, expand
+from linkforge_compile.load import Loader
+from linkforge_compile.load.spec_tree import MAX_DEPTH, MAX_INCLUDES
 from tests.expand.assembling import plain
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand import Instance, Loader, arguments_from_text, expand
+from linkforge_compile.expand import Instance, arguments_from_text, expand
 from linkforge_compile.limits import MAX_FILE_BYTES
+from linkforge_compile.load import Loader
 from linkforge_compile.paths import follow
 from tests.expand.assembling import write
 

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
-from linkforge_compile.expand import Instance, Loader, Unset, arguments_from_text, expand
+from linkforge_compile.expand import Instance, Unset, arguments_from_text, expand
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
+from linkforge_compile.load import Loader
 from tests.expand.assembling import metadata_of, plain, write
 
 

@@ -6,7 +6,8 @@ import pytest
 
 from linkforge_compile import compile_text
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand import Loader, arguments_from_text, arguments_from_values, expand
+from linkforge_compile.expand import arguments_from_text, arguments_from_values, expand
+from linkforge_compile.load import Loader
 from linkforge_compile.units import Dimension, Quantity
 from tests.expand.assembling import assemble, metadata_of, write
 

@@ -7,8 +7,8 @@ import pytest
 
 from linkforge_compile import compile_file, compile_text, render_urdf
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand import spec_tree
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load import spec_tree
 from linkforge_compile.source import SourceFile
 
 ARM = "linkforge: 1\nname: arm\nlinks: {base: }\n"

@@ -5,10 +5,10 @@ from time import process_time
 
 import pytest
 
-from linkforge_compile import expand
+from linkforge_compile import load
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.listing import list_used
-from linkforge_compile.expand.loader import Loader
+from linkforge_compile.listing import list_used
+from linkforge_compile.load.loader import Loader
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 ARG = '<xacro:arg name="size" default="1"/>'
@@ -31,7 +31,7 @@ ARG = '<xacro:arg name="size" default="1"/>'
 def test_a_urdf_is_a_xacro_by_its_root_and_its_tags(content: str, is_xacro: bool, tmp_path: Path):
     file = tmp_path / "r.urdf"
     file.write_text(content, "utf-8")
-    assert expand.is_xacro(file) is is_xacro
+    assert load.is_xacro(file) is is_xacro
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_a_hostile_file_is_recognized_in_linear_time(content: str, tmp_path: Pat
     file = tmp_path / "r.urdf"
     file.write_text(content, "utf-8")
     begin = process_time()
-    assert not expand.is_xacro(file)
+    assert not load.is_xacro(file)
     assert process_time() - begin < 2
 
 

@@ -12,9 +12,10 @@ from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics, Severity
-from linkforge_compile.expand import Loader, arguments_from_values, expand
+from linkforge_compile.expand import arguments_from_values, expand
 from linkforge_compile.export_spec import write_spec
 from linkforge_compile.formats.render import render_srdf, render_urdf
+from linkforge_compile.load import Loader
 from linkforge_compile.lower import lower
 from tests import strategies
 from tests.formats.everything import everything
@@ -94,7 +95,7 @@ def is_sayable(robot: Robot) -> bool:
 
 
 # A robot is a large thing to draw and to compile: the time goes into its hundreds of parts, not into those refused.
-few = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+few = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 robots = strategies.robots().map(sayable).filter(has_tags).filter(is_sayable)
 

@@ -46,16 +46,18 @@ def require_same_kinematics(robot: Robot, states: int = 100) -> None:
     data, data_of_reference = mujoco.MjData(ours), reference.createData()
     assert ours.nv == reference.nv
     root = root_name(robot)
+    names = list(robot.links.names)
+    bodies = [ours.body("world" if name == root == "world" else name).id for name in names]
+    frames = [reference.getFrameId(name, pinocchio.FrameType.BODY) for name in names]
     for state in range(states):
         q = random_state(reference, seed=state)
         set_state(ours, data, reference, q)
         mujoco.mj_kinematics(ours, data)
         pinocchio.framesForwardKinematics(reference, data_of_reference, q)
-        for link in robot.links:
-            frame = data_of_reference.oMf[reference.getFrameId(link.name, pinocchio.FrameType.BODY)]
-            body = data.body("world" if link.name == root == "world" else link.name)
-            numpy.testing.assert_allclose(body.xpos, frame.translation, rtol=0, atol=TOLERANCE)
-            numpy.testing.assert_allclose(body.xmat.reshape(3, 3), frame.rotation, rtol=0, atol=TOLERANCE)
+        poses = [data_of_reference.oMf[frame] for frame in frames]
+        positions, turns = [pose.translation for pose in poses], [pose.rotation.ravel() for pose in poses]
+        numpy.testing.assert_allclose(data.xpos[bodies], positions, rtol=0, atol=TOLERANCE)
+        numpy.testing.assert_allclose(data.xmat[bodies], turns, rtol=0, atol=TOLERANCE)
 
 
 def require_same_dynamics(robot: Robot) -> None:

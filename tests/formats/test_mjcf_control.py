@@ -5,6 +5,7 @@ import math
 import numpy
 import pytest
 
+from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import compiled, document, reported
 
@@ -58,6 +59,7 @@ def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
         ),
         ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "kv": "8"}),
         ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
+        ("[torque]", {"": "motor", "ctrlrange": "-5 5"}),
     ],
 )
 def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, str]):
@@ -68,6 +70,31 @@ def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, 
     ]
     assert mjcf_model(compiled(robot)).nu == 2
     assert reported(robot) == []
+
+
+def test_what_most_joints_have_is_in_their_class():
+    names = ("one", "two", "three")
+    joint = "{type: continuous, parent: base, child: NAME, axis: z, limits: {effort: 5, velocity: 3}}"
+    robot = f"""
+links: {{base: , {", ".join(f"{name}: {{inertial: *unit}}" for name in names)}}}
+joints: {{{", ".join(f"{name}_joint: {joint.replace('NAME', name)}" for name in names)}}}
+ros2_control:
+  arm:
+    hardware_plugin: mock_components/GenericSystem
+    joints:
+      one_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      two_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      three_joint: {{command_interfaces: {{position: {{kp: 300}}}}}}
+"""
+    assert elements(robot, "default/default[@class='joint']/*") == [
+        {"": "joint", "actuatorfrcrange": "-5 5"},
+        {"": "position", "kp": "200", "kv": "20"},
+    ]
+    assert [one.get("class") for one in elements(robot, "actuator/*")] == ["joint", "joint", None]
+    model = mjcf_model(compiled(robot))
+    assert model.jnt_actfrcrange.tolist() == [[-5, 5]] * 3
+    assert model.actuator_gainprm[:, 0].tolist() == [200, 200, 300]
+    assert model.actuator_biasprm[:, 2].tolist() == [-20, -20, 0]
 
 
 def test_a_joint_has_one_actuator():
@@ -185,6 +212,22 @@ semantic:
     assert mjcf_model(compiled(robot)).key("stand").qpos == [0.5]
 
 
+def test_a_joint_that_a_state_leaves_out_is_in_its_range():
+    robot = ARM.replace("lower: 0, upper: 0.5", "lower: 0.25, upper: 0.75") + STATES
+    model = mjcf_model(compiled(robot))
+    numpy.testing.assert_array_equal(model.key("ready").qpos, [1, 0.5])
+
+
+def test_stiff_drives_choose_an_implicit_integrator_which_a_scene_replaces():
+    implicit, explicit = mujoco.mjtIntegrator.mjINT_IMPLICITFAST, mujoco.mjtIntegrator.mjINT_EULER
+    driven = compiled(ARM + CONTROL.replace("SHOULDER", "{position: {kp: 200, kv: 20}}"))
+    assert mjcf_model(compiled(ARM)).opt.integrator == explicit
+    assert mjcf_model(driven).opt.integrator == implicit
+    robot = {"robot.mjcf": MJCF.render(driven, Rendering())[0].text.encode()}
+    scene = '<mujoco><include file="robot.mjcf"/><option integrator="Euler"/></mujoco>'
+    assert mujoco.MjModel.from_xml_string(scene, assets=robot).opt.integrator == explicit
+
+
 def test_a_joint_that_mimics_follows_in_a_keyframe():
     robot = ARM.replace("axis: [1, 0, 0]", "axis: [1, 0, 0]\n    mimic: {joint: shoulder, multiplier: 2, offset: 0.25}")
     states = "semantic: {groups: {arm: {joints: [shoulder]}}, group_states: {arm: {ready: {shoulder: 1}}}}\n"
@@ -207,8 +250,8 @@ def test_sensors_measure_at_sites():
     robot = ARM + SENSORS
     assert elements(robot, "sensor/*") == [
         {"": "gyro", "name": "imu_gyro", "site": "imu", "noise": "0.25"},
-        {"": "accelerometer", "name": "imu_accelerometer", "site": "imu"},
-        {"": "framequat", "name": "imu_orientation", "objtype": "site", "objname": "imu"},
+        {"": "accelerometer", "name": "imu_accel", "site": "imu"},
+        {"": "framequat", "name": "imu_quat", "objtype": "site", "objname": "imu"},
         {"": "force", "name": "wrench_force", "site": "wrench"},
         {"": "torque", "name": "wrench_torque", "site": "wrench"},
     ]
@@ -216,9 +259,7 @@ def test_sensors_measure_at_sites():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     numpy.testing.assert_allclose(data.site("imu").xpos, [0, 0, 0.5], atol=1e-12)
-    numpy.testing.assert_allclose(
-        data.sensor("imu_orientation").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12
-    )
+    numpy.testing.assert_allclose(data.sensor("imu_quat").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12)
 
 
 def test_a_camera_looks_where_gazebos_does():

@@ -27,6 +27,7 @@ def hardware(name: str = "turn", command: str = "effort", state: str = "[positio
 
 CASES = {
     "calibrations": ROBOT.replace("axis: z, limits", "axis: z, calibration: {rising: 1}, limits"),
+    "limits of acceleration and jerk": ROBOT.replace("effort: 5,", "effort: 5, acceleration: 2,"),
     "limits of planar joints": ROBOT.replace("child: hand,", "child: hand, limits: {effort: 1, velocity: 1},"),
     "dynamics of planar joints": ROBOT.replace("child: hand,", "child: hand, dynamics: {damping: 1},"),
     "mimic with a joint of other than one axis": ROBOT.replace("limits: {", "mimic: {joint: drive}, limits: {"),
@@ -62,6 +63,11 @@ def test_a_loss_is_reported_at_its_place():
     lines = (HEAD + CASES["raw XML of a URDF"]).splitlines()
     assert span is not None
     assert lines[span.line - 1][span.column - 1 :].startswith("<note/>")
+
+
+def test_the_axis_of_a_fixed_joint_is_no_loss():
+    weld = "drive: {type: fixed, parent: arm, child: hand, extra: <axis xyz='0 0 1'/>}"
+    assert reported(ROBOT.replace("drive: {type: planar, parent: arm, child: hand, axis: z}", weld)) == []
 
 
 def test_namespaces_are_no_loss():

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile import Robot, TemplateError, compile_text, render_srdf, render_templates, render_urdf
-from linkforge_compile.core import Joint, JointLimits, JointType, Link, Vector3
+from linkforge_compile import Robot, TemplateError, compile_text, formats, render_srdf, render_templates, render_urdf
+from linkforge_compile.core import Joint, JointLimits, JointType, Link, Mesh, Vector3, Visual
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.limits import FACTOR_VARIABLE
 from linkforge_compile.resources import templates_folder
@@ -66,6 +66,29 @@ def test_a_template_is_given_the_robot_its_views_and_the_banner(tmp_path: Path):
     }
     write(tmp_path, a_md="{{ srdf.groups | length }}")
     assert render_templates(everything(), tmp_path) == {"a.md": str(len(everything().semantic.groups))}
+
+
+def test_the_view_of_a_format_is_made_when_a_template_uses_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    made: list[str] = []
+    for one in formats.FORMATS:
+        own = one.view
+        monkeypatch.setattr(one, "view", lambda *words, one=one, own=own: made.append(one.name) or own(*words))
+    write(tmp_path, a_md="{{ robot.name }}")
+    render_templates(ARM, tmp_path)
+    assert made == []
+    write(tmp_path, a_md="{% set other = mjcf %}{{ other is none }}{% include '_part.j2' %}", b_md="{{ mjcf is none }}")
+    (tmp_path / "_part.j2").write_text("{% if urdf %}{{ mjcf is none }}{% endif %}")
+    assert render_templates(ARM, tmp_path) == {"a.md": "FalseFalse", "b.md": "False"}
+    assert made == ["mjcf", "urdf"], "each once"
+
+
+def test_a_view_that_cannot_be_made_is_reported_where_a_template_uses_it(tmp_path: Path):
+    robot = Robot("arm", links=[Link("base", visuals=[Visual(Mesh("a\x07"))])])
+    write(tmp_path, a_md="{{ robot.name }}")
+    assert render_templates(robot, tmp_path) == {"a.md": "arm"}
+    write(tmp_path, a_md="{{ robot.name }}\n{{ urdf.name }}")
+    with pytest.raises(TemplateError, match=r"a\.md\.j2:1:1: .*XML cannot hold the character U\+0007"):
+        render_templates(robot, tmp_path)
 
 
 def test_the_banner_ends_no_comment(tmp_path: Path):

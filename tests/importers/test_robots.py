@@ -1,10 +1,6 @@
 """Real robots come in, and go out the same: an independent judge compares, and what it does not see is a law."""
 
-import json
 import re
-import runpy
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,6 +11,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.limits import Budget
 from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar, read
+from tests.conftest import Judge
 from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, PAIRS
 
 OTHER_ROBOT = "LF8103"
@@ -64,32 +61,18 @@ def texts(robot: Documents) -> list[str]:
     return [path.read_text("utf-8") for path in robot if path]
 
 
-@pytest.fixture(scope="session")
-def judge(shared: Path):
-    """Return what tells whether two robots are the same to each consumer; in process, which costs a tenth."""
-    main = runpy.run_path(str(shared / "tools" / "urdf_equiv.py"))["main"]
-
-    def checks(theirs: Documents, ours: Documents) -> dict[str, dict[str, object]]:
-        both = ["--srdf", str(theirs.srdf), str(ours.srdf)] if theirs.srdf else []
-        with redirect_stdout(StringIO()) as told:
-            main([str(theirs.urdf), str(ours.urdf), *both, "--json"])
-        return json.loads(told.getvalue())["checks"]
-
-    return checks
-
-
 REFUSED_BY_MUJOCO = {"romeo_laas_small", "tiago", "tiago_dual", "tiago_no_hand", "unitree_go2_description"}
 """The vendors' own files, of which it tells as much as of ours."""
 
 
 @pytest.mark.parametrize("robot", ROBOTS, ids=str)
-def test_a_robot_is_the_same_to_every_consumer_and_stays_so(robot: Documents, judge, tmp_path: Path):
+def test_a_robot_is_the_same_to_every_consumer_and_stays_so(robot: Documents, judge: Judge, tmp_path: Path):
     """What came in once stays: its spec comes again from what that compiles to, and from then on byte for byte."""
     spec, losses = imported(robot)
     renamed = [loss for loss in losses if loss.code.id == OTHER_ROBOT]
     assert len(losses) == len(renamed)
     ours = compiled(spec, tmp_path / "ours")
-    checks = judge(robot, ours)
+    checks = judge(robot.urdf, ours.urdf, *(("--srdf", robot.srdf, ours.srdf) if robot.srdf else ()))
     mujoco = checks.pop("mujoco")["status"]
     assert [one["path"] for one in checks.pop("srdf", {}).get("fatal", ())] == ["/robot/@name"] * len(renamed)
     assert {name: check["status"] for name, check in checks.items()} == dict.fromkeys(("xml", "pin", "urdfdom"), "same")

@@ -6,7 +6,7 @@ from textwrap import dedent
 
 from linkforge_compile.core import Robot
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.uses import Instance
+from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import Lowered, lower
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlMap, read

@@ -14,7 +14,7 @@ from linkforge_compile.core import models
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.part import Part
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.uses import Instance
+from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import lower
 from linkforge_compile.resources import schemas_folder
 from linkforge_compile.source import SourceFile, SourceRef
@@ -118,7 +118,7 @@ def near_schema(schema: dict, name: str) -> st.SearchStrategy[YamlNode]:
     return odd.flatmap(lambda is_odd: LEAVES if is_odd else st.one_of(choices))
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(near("robot"), near("robot"), near("module"))
 def test_no_tree_is_a_traceback(tree, module, entry):
     hand = Instance("hand", module if isinstance(module, YamlMap) else None, SourceRef(entry, YamlFault(SPAN)), "hand_")

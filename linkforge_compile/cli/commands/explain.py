@@ -168,7 +168,7 @@ def _name(name: NameOrigin, indent: str) -> Iterator[str]:
 
 def _setting(setting: Setting) -> str:
     """Return what set a name: "the default 0.8 m at arm.robot.yaml:6:11"."""
-    from linkforge_compile.expand.listing import as_written
+    from linkforge_compile.listing import as_written
 
     words, place = WORDS[setting.kind].sentence.format(name=setting.name), setting.node.span
     if setting.kind is Kind.COMMAND_LINE:

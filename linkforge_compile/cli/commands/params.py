@@ -12,7 +12,7 @@ from linkforge_compile.cli.reports import add_report_options, report
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.expand.listing import ListedParameter, Listing, Plain
+    from linkforge_compile.listing import ListedParameter, Listing, Plain
 
 _EXAMPLES = """\
 examples:

@@ -12,7 +12,7 @@ from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import Drive, drives, number_of
-from linkforge_compile.formats.mjcf.joints import is_locked
+from linkforge_compile.formats.mjcf.joints import SINGLE, range_of
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _AT_REST: Mapping[str, Sequence[float]] = {
     JointType.PLANAR: (0.0, 0.0, 0.0),
     JointType.FLOATING: _AT_ORIGIN,
 }
-"""The positions of joints at rest where they are not one 0; a quaternion begins with w."""
+"""The positions at rest of joints that have other than one position; a quaternion begins with w."""
 
 INITIAL, INITIAL_VALUE = "initial_positions", "initial_value"
 """The keyframe of the initial positions, and the parameter of an interface that is one."""
@@ -36,7 +36,7 @@ Positions: TypeAlias = Mapping[str, Sequence[object]]
 
 
 class State(NamedTuple):
-    """A keyframe: positions of some joints, the virtual one of the base among them; the others are at 0.
+    """A keyframe: positions of some joints, the virtual one of the base among them; the others are at rest.
 
     `origin` is what it is made of, in words.
     """
@@ -67,6 +67,8 @@ def states_of(robot: Robot) -> Iterator[State]:
 def _initial_positions(robot: Robot) -> Iterator[tuple[str, float, SourceRef | None]]:
     """Yield the initial position of each joint that hardware gives one, and its place."""
     for hardware in (joint for system in robot.ros2_controls for joint in system.joints):
+        if not robot.has_joint(hardware.name) or robot.joints[hardware.name].type not in SINGLE:
+            continue
         for state in map(Interface.of, hardware.state_interfaces):
             value = number_of(state.parameters.get(INITIAL_VALUE))
             if state == "position" and value is not None:
@@ -115,7 +117,7 @@ def _positions(tree: KinematicTree, stated: Positions) -> dict[str, Sequence[flo
 
 
 def _of_state(joint: Joint, stated: Positions) -> Sequence[float]:
-    at_rest = _AT_REST.get(joint.type, (_locked_at(joint),))
+    at_rest = _AT_REST.get(joint.type, (_position_at_rest(joint),))
     return _numbers(stated.get(joint.name, ()), joint.type, at_rest)
 
 
@@ -129,8 +131,12 @@ def _numbers(stated: Sequence[object], kind: str, at_rest: Sequence[float]) -> S
     return tuple(numbers)
 
 
-def _locked_at(joint: Joint) -> float:
-    return joint.limits.lower or 0.0 if joint.limits and is_locked(joint.limits) else 0.0
+def _position_at_rest(joint: Joint) -> float:
+    """Return 0, or the middle of a range without it, as joint_state_publisher and MoveIt do."""
+    if joint.limits is None or joint.type == JointType.CONTINUOUS:
+        return 0.0
+    lower, upper = range_of(joint.limits)
+    return 0.0 if lower <= 0 <= upper else (lower + upper) / 2
 
 
 def _mimicking(joint: Joint, positions: Mapping[str, Sequence[float]]) -> Sequence[float]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
-from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
@@ -19,7 +19,6 @@ from linkforge_compile.formats.parts import doubtful_parts_in
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
 
@@ -61,6 +60,8 @@ def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
         yield Loss("safety controllers", joint.name, joint.source, ("safety_controller",))
     if joint.calibration:
         yield Loss("calibrations", joint.name, joint.source, ("calibration",))
+    if joint.limits and (joint.limits.acceleration or joint.limits.deceleration or joint.limits.jerk):
+        yield Loss("limits of acceleration and jerk", joint.name, joint.limits.source or joint.source)
     if joint.mimic and leader_of(joint, robot) is None:
         yield Loss("mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source)
     if joint.type not in (*SINGLE, JointType.FIXED):
@@ -129,6 +130,8 @@ def _raw_xml(robot: Robot) -> Iterator[Loss]:
     semantic = doubtful_parts_in(robot.semantic if robot.has_semantic else ())
     yield from _lost_texts(robot, robot.name, robot.source)
     for held in (*kept.with_extras, *semantic.with_extras):
+        if any(isinstance(part, Joint) and part.type == JointType.FIXED for part in (held.part, *held.around)):
+            continue  # an axis or a limit, which a fixed joint has no use for
         names = (getattr(part, "name", None) for part in (held.part, *reversed(held.around)))
         yield from _lost_texts(held.part, next(filter(None, names), robot.name), held.where)
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
-    XACRO_ARGUMENT,
     XACRO_ARGUMENT_TOO_EARLY,
     XACRO_FAILED,
     XACRO_FILE_MISSING,
@@ -23,17 +22,11 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_WARNS,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
-from linkforge_compile.expand.arguments import Arguments
-from linkforge_compile.expand.evaluate import Evaluator
-from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile, with_use_trace
-from linkforge_compile.expand.values import plain_value
-from linkforge_compile.expand.xacro_answers import XacroAnswers
-from linkforge_compile.expressions import Fault
+from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
+from linkforge_compile.load.xacro_answers import XacroAnswers
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.roots import exists
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlNode, YamlScalar
-from linkforge_compile.units import Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
@@ -116,9 +109,9 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     from linkforge_compile.importers.xacro import Failed, moved_back, run_xacro
 
     main = loader.open_xml(use.path, sink, use.used)
-    arguments = _argument_texts(use, sink)
-    if main is None or arguments is None:
+    if main is None or use.arguments is None:
         return None
+    arguments = {name: argument.text for name, argument in use.arguments.items()}
     if os.environ.get(FORBIDDEN) or not loader.runs_xacro:
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
@@ -141,46 +134,25 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
     return Expansion(expanded, files, moved, frozenset((*result.arguments, *result.wanted)), answers.packages)
 
 
-def _argument_texts(use: XacroUse, sink: Diagnostics) -> dict[str, str] | None:
-    """Return the arguments as text, the only type that xacro has; None after a reported error."""
-    texts: dict[str, str] = {}
-    for name, entry in use.arguments.entries.items():
-        text = _argument_text(entry.value, use)
-        if isinstance(text, str):
-            texts[name] = text
-        elif text is None:
-            sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
-    is_complete = len(texts) == len(use.arguments.entries) and not use.arguments.is_partial
-    return texts if is_complete else None
+class XacroArgument(NamedTuple):
+    """The text of an argument, the only type that xacro has, and where its name is written."""
 
-
-def _argument_text(node: YamlNode, use: XacroUse) -> str | Fault | None:
-    """Return an argument as text; FAULT after a reported error, None for a list, a map or nothing."""
-    if use.arguments.as_text and isinstance(node, YamlScalar):
-        quantity = parse_quantity(node.text)
-        return number_text(quantity.value) if quantity else node.text
-    value = use.evaluator.value(node) if use.evaluator else plain_value(node)
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    number = value.value if isinstance(value, Quantity) else value
-    if isinstance(number, int | float):
-        return number_text(number)
-    return value if isinstance(value, str | Fault) else None
+    text: str
+    where: Span
 
 
 @dataclass(frozen=True)
 class XacroUse:
     """What names a xacro file, its arguments, and the package folders that the using file declares.
 
-    `evaluator` computes the arguments, None if they hold no expressions. `package` is the one through whose
-    `package://` the file was reached. `used_elsewhere` are the arguments that the robot's other file uses; None if
-    that file reports the unknown ones.
+    `arguments` is None if some are faulty, which is reported. `package` is the one through whose `package://` the file
+    was reached. `used_elsewhere` are the arguments that the robot's other file uses; None if that file reports the
+    unknown ones.
     """
 
     path: Path
     used: ImportSite
-    arguments: Arguments
-    evaluator: Evaluator | None = None
+    arguments: Mapping[str, XacroArgument] | None = field(default_factory=dict)
     packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
@@ -260,9 +232,9 @@ class XacroReporter:
         first = next(map(self.written.span, declared.values()), None)
         note = Note("its arguments are declared here" if declared else "this file declares no arguments", first)
         known = (*declared, *wanted, *self.use.used_elsewhere)
-        for name, entry in self.use.arguments.entries.items():
+        for name, argument in (self.use.arguments or {}).items():
             if name not in known:
-                self.sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=known, notes=[note]))
+                self.sink.report(UNKNOWN_PARAMETER.at(argument.where, name=name, near=known, notes=[note]))
 
     def _unknown_package(self, name: str, place: Span | None) -> Diagnostic:
         where, loader = self.use.used.where, self.loader

@@ -13,11 +13,11 @@ from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope
-from linkforge_compile.expand.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
-from linkforge_compile.expand.uses import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
 from linkforge_compile.expressions import FAULT, Value
+from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
+from linkforge_compile.load.locations import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
 from linkforge_compile.paths import folders_for_xacro
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar

@@ -12,8 +12,8 @@ from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
+from linkforge_compile.load.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
 from linkforge_compile.roots import ANYWHERE, Roots, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
