@@ -16,12 +16,12 @@ What each module knows; it imports only those above it:
     arguments         what the user sets -> Arguments; the variants of a file
     parameters        a declaration -> type and constraints, which convert a value or refuse it
     parameter_values  declaration, arguments, variants -> the value in force
-    file_scope        one use of a file -> the names, values and functions that its expressions know
     long_forms        an object in a short form -> in its long form; a frame -> a link and a joint
     defaults          `defaults` -> merged into links, joints and sensors
     override          a patch and a tree -> the patched tree
     deletions         a tree and an override -> what else goes with deleted links; why each name is gone
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
+    file_scope        one use of a file -> the names, values and functions that its expressions know
     expand_uses       all of this for a file, then for each file that it uses
 """
 
