@@ -172,6 +172,11 @@ class Parameters(Spec):
     """A mapping whose names and texts the format does not know, such as what a plugin reads."""
 
 
+@dataclass(frozen=True)
+class Data(Spec):
+    """A mapping of values whose types are kept: numbers, truths, texts, and lists and mappings of them."""
+
+
 _TUPLES = (Vector, Colour)
 
 

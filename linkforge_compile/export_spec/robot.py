@@ -48,6 +48,9 @@ def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
         ros2_control=builder.named(
             "ros2_control", ((one.name, export_element(builder, one)) for one in robot.ros2_controls)
         ),
+        controllers=builder.named(
+            "controller", ((one.name, export_element(builder, one)) for one in robot.controllers)
+        ),
         gazebo=export_blocks(builder, gazebo.robot, with_reference=True),
         semantic=export_semantic(builder, robot.semantic, robot.joints) if robot.has_semantic else None,
     )

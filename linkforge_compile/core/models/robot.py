@@ -271,6 +271,7 @@ class Robot(RobotParts):
         robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
         robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
         robot.gazebo_elements = sorted(robot.gazebo_elements, key=content_key)
+        robot.controllers = sorted(robot.controllers, key=NAME)
         if robot.has_semantic:
             robot.semantic = robot.semantic.normalized()
         return robot

@@ -5,7 +5,7 @@ group or link, and RobotMathError for NaN and infinity.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from numbers import Real
 from operator import attrgetter
@@ -17,6 +17,7 @@ from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     Children,
     Choice,
+    Data,
     Name,
     Number,
     Reference,
@@ -78,7 +79,10 @@ class Chain(Element):
 @extras_last
 @dataclass(frozen=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups."""
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
+
+    `kinematics` are the parameters of its solver in MoveIt, such as `kinematics_solver`; they are in no SRDF.
+    """
 
     TAG = "group"
     NAMES_INSIDE_TAKE_PREFIX = True
@@ -88,6 +92,7 @@ class PlanningGroup(Element):
     joints: Annotated[Sequence[str], Reference("joint", xml="joint/@name")] = ()
     chains: Annotated[Sequence[Chain], Children()] = ()
     subgroups: Annotated[Sequence[str], Reference("group", xml="group/@name")] = ()
+    kinematics: Annotated[Mapping[str, Any], Data(xml="")] = field(default=FrozenMap(), kw_only=True)
 
     def _check(self) -> None:
         require_not_blank(self.name, "planning group name", "PlanningGroupName")
