@@ -448,7 +448,7 @@ def test_any_format_is_built_and_installed_into_its_folder(tmp_path: Path, gener
     subprocess.run((program("cmake"), "--install", str(tmp_path / "b")), capture_output=True, check=True, timeout=60)
     share = tmp_path / "install" / "share" / "p"
     files = {path.relative_to(share).as_posix() for path in share.rglob("*") if path.is_file()}
-    assert files == {"urdf/left.urdf", "mjcf/left.mjcf", "config/left.joints", "config/joints.txt", "links.txt"}
+    assert files == {"urdf/left.urdf", "mjcf/left.mjcf", "config/left.joints", "config/joints.yaml", "links.txt"}
 
 
 def test_a_command_that_lists_no_formats_is_reported(tmp_path: Path):

@@ -14,6 +14,7 @@ from linkforge_compile.resources import schemas_folder
 
 EVERYWHERE = {"extra", "extra_attributes", "extra_inside"}
 CLASSES: Mapping[str, str] = {
+    "controller": "Controller",
     "geometry#box": "Box",
     "geometry#capsule": "Capsule",
     "geometry#cylinder": "Cylinder",
@@ -101,6 +102,7 @@ ONLY_IN_CLASS: Mapping[str, set[str]] = {
     "gazebo": {"reference"},  # the link or joint around it
 }
 REQUIRED_OF_SOME: Mapping[str, set[str]] = {
+    "controller": {"type"},  # of all but the manager
     "joint": {"limits"},  # of revolute and prismatic joints
     "sensor": {"contact"},  # of contact sensors
 }
