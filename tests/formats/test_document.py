@@ -30,6 +30,8 @@ def test_every_format_is_in_the_table():
         ("srdf", ".srdf"),
         ("mjcf", ".mjcf"),
         ("joint_limits", "_joint_limits.yaml"),
+        ("ros2_controllers", "_controllers.yaml"),
+        ("moveit", "_moveit_config"),
     ]
 
 
