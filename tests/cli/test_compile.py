@@ -444,7 +444,7 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
-        (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
+        (("compile", "swing.robot.yaml", "--format", "usd"), "invalid choice"),
         (
             ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
             "--format srdf does not go into 'a.urdf'",
