@@ -169,9 +169,6 @@ def _origin(urdf: Path, srdf: Path | None, arguments: Arguments, settings: Setti
 def _imported_text(
     urdf: _Urdf, srdf: Path | None, settings: Settings, arguments: Arguments, *, loader: Loader, sink: Diagnostics
 ) -> str | None:
-    from linkforge_compile.formats.limits import check_raw_names, check_written_twice
-    from linkforge_compile.formats.parts import doubtful_parts_of_urdf
-    from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
     from linkforge_compile.importers.srdf_with_urdf import with_srdf
 
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
@@ -196,17 +193,26 @@ def _imported_text(
     sink.report_all(compiled.diagnostics)
     # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
-        sink.report_all(check_raw_names(compiled.robot))
-        sink.report_all(check_written_twice(doubtful_parts_of_urdf(compiled.robot).with_extras))
-        sink.report_all(_losses(whole, compiled.robot, sink.places_of(LOSSES)))
-        if settings.output is not None:
-            sink.report_all(check_relative_mesh_paths(compiled.robot, settings.output, MESH_BESIDE_THE_URDF))
+        _check_imported(whole, compiled.robot, settings.output, sink)
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
     text = _spec_text(whole, sink) if text is None else text
     if not sink.has_errors:
         sink.report_all(_faults_of_text(text, urdf.path, settings))
     return text
+
+
+def _check_imported(whole: Imported, robot: Robot, output: Path | None, sink: Diagnostics) -> None:
+    """Report names in raw XML, what is written twice, losses and, for a spec in the folder `output`, mesh paths."""
+    from linkforge_compile.formats.limits import check_raw_names, check_written_twice
+    from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+    from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
+
+    sink.report_all(check_raw_names(robot))
+    sink.report_all(check_written_twice(doubtful_parts_of_urdf(robot).with_extras))
+    sink.report_all(_losses(whole, robot, sink.places_of(LOSSES)))
+    if output is not None:
+        sink.report_all(check_relative_mesh_paths(robot, output, MESH_BESIDE_THE_URDF))
 
 
 def _faults_of_text(text: str, urdf: Path, settings: Settings) -> Iterator[Diagnostic]:

@@ -25,6 +25,12 @@ def templates_folder() -> Path:
     return data_folder() / "templates"
 
 
+def format_templates() -> list[Path]:
+    """Return the templates of all formats, sorted: all but those of `linkforge init`."""
+    folder = templates_folder()
+    return [path for path in sorted(folder.rglob("*.j2")) if path.relative_to(folder).parts[0] != "init"]
+
+
 def compiled_templates_folder() -> Path:
     """Return the folder of compiled templates, which building a wheel creates; a checkout has none."""
     return _packed() / "compiled_templates"
@@ -32,8 +38,7 @@ def compiled_templates_folder() -> Path:
 
 def compiler_files() -> tuple[Path, ...]:
     """Return the files of linkforge on which its output depends: the templates and the version."""
-    templates = (path for format_ in ("srdf", "urdf") for path in sorted((templates_folder() / format_).rglob("*.j2")))
-    return (*templates, Path(__file__).with_name("_version.py"))
+    return (*format_templates(), Path(__file__).with_name("_version.py"))
 
 
 def manual_folder() -> Path:

@@ -91,12 +91,16 @@ class Workspace:
         assert run.returncode == 0, run.stderr
 
 
-@pytest.fixture(params=["Unix Makefiles", "Ninja"])
+@pytest.fixture
 def workspace(request: pytest.FixtureRequest, tmp_path: Path, linkforge: Linkforge) -> Workspace:
-    generator: str = request.param
-    made = Workspace(tmp_path / "my ws", generator, linkforge)
+    """Build with Ninja, or with a test's own generator."""
+    made = Workspace(tmp_path / "my ws", getattr(request, "param", "Ninja"), linkforge)
     made.configure()
     return made
+
+
+by_both = pytest.mark.parametrize("workspace", ["Unix Makefiles", "Ninja"], indirect=True)
+"""For what depends on the generator: how it learns what a robot is made from, and what follows an error."""
 
 
 BOTH = {"pan_tilt", "pan_tilt_sim"}
@@ -121,6 +125,7 @@ def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Wo
     assert str(workspace.source) not in sim
 
 
+@by_both
 def test_what_a_robot_is_made_from_builds_it_again_and_nothing_else_does(workspace: Workspace, linkforge: Linkforge):
     assert workspace.make() == BOTH
     assert workspace.make() == set()
@@ -148,6 +153,7 @@ def test_another_value_in_a_file_of_data_reaches_the_robot(workspace: Workspace)
     assert urdf.read_text("utf-8") == before.replace('effort="1.5"', 'effort="1.7"')
 
 
+@by_both
 def test_a_fault_stops_the_build_at_its_place_until_it_is_mended(workspace: Workspace):
     workspace.make()
     module = workspace.source / "robots" / "servo.robot.yaml"
@@ -378,9 +384,8 @@ def test_several_robots_are_compiled_by_one_process_when_one_changes(
     assert fleet.make() == (0, False, "")
 
 
-@pytest.mark.parametrize("generator", ["Unix Makefiles", "Ninja"])
-def test_an_error_in_one_of_several_robots_stops_the_build(tmp_path: Path, generator: str, linkforge: Linkforge):
-    fleet = Fleet(tmp_path / "fleet", generator, linkforge)
+def test_an_error_in_one_of_several_robots_stops_the_build(tmp_path: Path, linkforge: Linkforge):
+    fleet = Fleet(tmp_path / "fleet", "Ninja", linkforge)
     arm = fleet.source / "arm.robot.yaml"
     right = arm.read_text()
     arm.write_text(right.replace("links: [base]", "links: [bass]"))
@@ -443,7 +448,7 @@ def test_any_format_is_built_and_installed_into_its_folder(tmp_path: Path, gener
     subprocess.run((program("cmake"), "--install", str(tmp_path / "b")), capture_output=True, check=True, timeout=60)
     share = tmp_path / "install" / "share" / "p"
     files = {path.relative_to(share).as_posix() for path in share.rglob("*") if path.is_file()}
-    assert files == {"urdf/left.urdf", "mjcf/left.mjcf", "config/left.joints", "config/joints.txt", "links.txt"}
+    assert files == {"urdf/left.urdf", "mjcf/left.mjcf", "config/left.joints", "config/joints.yaml", "links.txt"}
 
 
 def test_a_command_that_lists_no_formats_is_reported(tmp_path: Path):

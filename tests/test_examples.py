@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from linkforge_compile import Robot, compile_file, render_srdf, render_urdf
+from linkforge_compile.formats import format_named
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT, Checks, Judge
 from tests.consumers import check_urdf, mujoco_model, pinocchio_model
@@ -47,6 +48,32 @@ def test_an_example_compiles_to_the_files_next_to_it(spec: Path, tmp_path: Path,
         written = folder / golden.name
         assert written.exists() == golden.exists()
         assert not golden.exists() or written.read_bytes() == golden.read_bytes()
+
+
+OTHER_FORMATS = [
+    ("02_ur5e/ur5e_mocked", "mjcf"),
+    ("02_ur5e/ur5e_mocked", "joint_limits"),
+    ("09_mobile_manipulator/mobile_manipulator", "mjcf"),
+    ("09_mobile_manipulator/mobile_manipulator", "joint_limits"),
+]
+"""The golden files of formats that are written on request."""
+
+
+@pytest.mark.parametrize(("example", "format_"), OTHER_FORMATS)
+def test_an_example_compiles_to_other_formats(
+    example: str, format_: str, tmp_path: Path, update_golden: bool, monkeypatch: pytest.MonkeyPatch
+):
+    """Without the vendor's meshes, which are on no machine of the tests, unless it has ROS."""
+    for name in ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH"):
+        monkeypatch.delenv(name, raising=False)
+    spec = ROOT / "examples" / f"{example}.robot.yaml"
+    folder = spec.parent if update_golden else tmp_path
+    run = linkforge("compile", str(spec), "-o", str(folder), "--format", format_, cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    one = format_named(format_)
+    target = Path(f"{name_of(spec)}{one.suffix}")
+    for name in (target / file for file in one.files or ("",)):
+        assert (folder / name).read_bytes() == (spec.parent / name).read_bytes()
 
 
 def test_urdfdom_reads_every_link_and_joint(spec: Path):

@@ -2,37 +2,20 @@
 
 import os
 import re
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-resource = pytest.importorskip("resource", reason="the limits are those of POSIX")
+pytest.importorskip("resource", reason="the limits are those of POSIX")
+
+from tests.limited import run
 
 HEAD = "linkforge: 1\nname: r\nlinks:\n  base:\n"
 LINK = "linkforge: 1\nname: r\nlinks:\n  base: "
 PART = "linkforge: 1\nname: part\nlinks: {base: , tip: }\njoints: {wrist: {type: fixed, parent: base, child: tip}}\n"
-MEMORY = 512 * 1024**2
-SECONDS = 10  # of work: another's load on the machine is not the file's doing
-LONGEST_WAIT = 300
-
 Make = Callable[[Path], str | bytes]
 """Writes the other files that a spec needs, and returns the spec."""
-
-
-def _limited() -> None:
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-
-
-def run(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "linkforge_compile", *words]
-    return subprocess.run(
-        command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, encoding="utf-8",
-        timeout=LONGEST_WAIT, preexec_fn=_limited, check=False,
-    )  # fmt: skip
 
 
 def write(folder: Path, name: str, text: str | bytes) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from linkforge_compile.checks import (
+    controllers,
     gazebo,
     groups,
     inertia,
@@ -68,6 +69,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     ros2_control.check_interface_parameters,
     ros2_control.check_mimics_in_hardware,
     ros2_control.check_hardware_is_used,
+    controllers.check_names_in_controllers,
     sensors.check_gazebo_references,
     sensors.check_plugin_joints,
     sensors.check_plugin_files,

@@ -29,7 +29,7 @@ class NamedPart(Protocol):
 
 
 def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
-    """Sensors have unique names, and so have transmissions and ros2_control systems.
+    """Sensors have unique names, and so have transmissions, ros2_control systems and controllers.
 
     Of two with one name readers take the first, the last or none. Rename one. The prefixes of modules keep their
     names apart. Lowering has reported links and joints of one name.
@@ -37,6 +37,7 @@ def check_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     yield from _report_duplicates("sensor", robot.sensors)
     yield from _report_duplicates("transmission", robot.transmissions)
     yield from _report_duplicates("ros2_control system", robot.ros2_controls)
+    yield from _report_duplicates("controller", robot.controllers)
 
 
 def check_semantic_duplicates(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 COMMANDS = {
     "init": "create a folder for a new robot, with a first spec and files for editors, git and builds",
-    "compile": "compile a spec to URDF and SRDF",
+    "compile": "compile a spec to URDF, SRDF and other formats",
     "watch": "compile a spec, and again whenever one of its files changes",
     "check": "report all errors and warnings of specs, without writing anything",
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
     "diff": "compare two robots, specs or URDFs",
-    "where": "find what in a spec wrote a line of a URDF or SRDF",
+    "where": "find what in a spec wrote a line of an output",
     "collisions": "find the pairs of links that need no check for collisions, by sampling",
     "import": "convert an existing URDF to a spec",
     "schema": "print the JSON Schema of specs, for editors",
@@ -100,7 +100,7 @@ def _run(words: list[str]) -> int:
 
 def _run_without_command(words: list[str]) -> int:
     """Handle options such as `--help`, and report an unknown command."""
-    summary = "a declarative compiler for robots: YAML specs in, URDF and SRDF out"
+    summary = "a declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out"
     version = f"linkforge {__version__}"
     parser = _make_parser(
         "linkforge", summary, lambda it: it.add_argument("-V", "--version", action="version", version=version)

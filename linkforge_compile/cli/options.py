@@ -211,7 +211,7 @@ def check_settings_of(assignments: list[str], arguments: argparse.Namespace) -> 
     """Return the settings of a check, for which a parameter may lack its value."""
     from linkforge_compile.expand import Unset
 
-    return settings_of(assignments, arguments)._replace(unset=Unset.NOTE)
+    return settings_of(assignments, arguments)._replace(unset=Unset.NOTE, formats=tuple(arguments.formats))
 
 
 def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:

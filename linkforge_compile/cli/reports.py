@@ -79,13 +79,13 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
 
 
 def add_strict_option(parser: argparse.ArgumentParser) -> None:
-    """Add `--strict`, for commands with `add_report_options` that write outputs."""
+    """Add `--strict`, for commands with `add_report_options` that are about outputs."""
     parser.add_argument(
         "--strict",
         dest="errors",
         action="append_const",
         const=OUTPUT_CODES,
-        help="write nothing and fail if an output cannot hold a part of the robot: warnings LF7 are errors",
+        help="fail, and write nothing, if an output cannot hold a part of the robot: warnings LF7 are errors",
     )
 
 

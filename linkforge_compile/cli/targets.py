@@ -79,6 +79,12 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: that of the spec)")
 
 
+def add_for_option(parser: argparse.ArgumentParser, about: str) -> None:
+    """Add `--for`, the formats of a command whose `--format` is the form of what it prints."""
+    names = [one.name for one in formats.FORMATS]
+    parser.add_argument("--for", choices=names, dest="formats", action="append", default=[], help=about)
+
+
 def add_output_option(parser: argparse.ArgumentParser) -> None:
     written = " and ".join(f"NAME{one.suffix}" for one in formats.FORMATS if one.is_default)
     parser.add_argument(
@@ -152,7 +158,7 @@ def _is_document(output: str, name: str) -> bool:
     """Whether `-o` names a document's file: one with a suffix, but not of a format that the document has not."""
     path = Path(output)
     is_folder = output.endswith(("/", "\\")) or path.is_dir()
-    is_of_format = _format_by_suffix(output) is not None and path.suffix != Path(name).suffix
+    is_of_format = format_by_suffix(output) is not None and path.suffix != Path(name).suffix
     return not is_folder and bool(path.suffix) and not is_of_format
 
 
@@ -204,14 +210,15 @@ def _file_endings(chosen: Sequence[str] = ()) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*_suffixes(), *of_chosen, ".xml")))
 
 
-def _format_by_suffix(output: str) -> str | None:
+def format_by_suffix(output: str) -> str | None:
+    """Return the name of the format of one file whose suffix ends the name of an output, None for no such format."""
     found = [suffix for suffix in _suffixes() if output.endswith(suffix)]
     return _suffixes()[max(found, key=len)] if found else None
 
 
 def _format_of_file(output: str, chosen: str | None) -> str:
     """Return the format of a file by its suffix; a file with any other suffix may have any format."""
-    of_suffix = _format_by_suffix(output)
+    of_suffix = format_by_suffix(output)
     if chosen and of_suffix not in (None, chosen):
         raise UsageError(f"--format {chosen} does not go into '{output}'")
     return chosen or of_suffix or default_format().name

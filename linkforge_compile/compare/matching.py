@@ -8,7 +8,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.fields import RawElement, match_key, specs_of
-from linkforge_compile.core.fields import Name, Reference, Spec
+from linkforge_compile.core.fields import Name, Reference, Spec, key_fields
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointMimic
@@ -18,11 +18,9 @@ from linkforge_compile.core.models.srdf import (
     Chain,
     CollisionPair,
     GroupState,
-    JointProperty,
-    LinkSphereApproximation,
     SrdfSphere,
 )
-from linkforge_compile.core.part import Inside
+from linkforge_compile.core.part import Element, Inside
 
 
 class Renames(NamedTuple):
@@ -250,16 +248,12 @@ def key_of_member(item: object) -> str:
             return item.reference or "robot"
         case CollisionPair():
             return "/".join(item.key)
-        case GroupState():
-            return f"{item.group}/{item.name}"
-        case JointProperty():
-            return f"{item.joint_name}/{item.property_name}"
-        case LinkSphereApproximation():
-            return item.link
         case Chain():
             return f"{item.base_link}/{item.tip_link}"
         case Inside() | RawElement():
             return f"{item.tag}/{item.name}" if item.name else item.tag
+        case Element() if fields := key_fields(type(item)):
+            return "/".join(str(getattr(item, field)) for field in fields)
     name: str | None = getattr(item, "name", None)
     return name or ""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 FieldPath: TypeAlias = tuple[str | int, ...]
 """The way from an object to its field at fault, in the keys of the spec language: ("limits", "upper")."""
@@ -91,6 +91,26 @@ class _CodedModelError(RobotModelError):
         self.target = target
         self.value = value
         self.field = field
+
+    @classmethod
+    def invalid(cls, message: str, target: str, value: object = None, *field: str | int) -> Self:
+        """Return the error INVALID_VALUE; `field` are the keys of its path."""
+        return cls(ValidationErrorCode.INVALID_VALUE, message, target, value, field=field)
+
+    @classmethod
+    def empty(cls, message: str, target: str, value: object = None, *field: str | int) -> Self:
+        """Return the error VALUE_EMPTY."""
+        return cls(ValidationErrorCode.VALUE_EMPTY, message, target, value, field=field)
+
+    @classmethod
+    def out_of_range(cls, message: str, target: str, value: object = None, *field: str | int) -> Self:
+        """Return the error OUT_OF_RANGE."""
+        return cls(ValidationErrorCode.OUT_OF_RANGE, message, target, value, field=field)
+
+    @classmethod
+    def not_found(cls, message: str, target: str, value: object = None, *field: str | int) -> Self:
+        """Return the error NOT_FOUND."""
+        return cls(ValidationErrorCode.NOT_FOUND, message, target, value, field=field)
 
 
 class RobotValidationError(_CodedModelError):

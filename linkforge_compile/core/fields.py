@@ -17,7 +17,7 @@ from types import NoneType
 from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from linkforge_compile.core.constants import EPSILON
-from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import FieldPath, RobotMathError, RobotValidationError
 from linkforge_compile.units import BARE, FieldUnit, Motion
 
 
@@ -172,6 +172,11 @@ class Parameters(Spec):
     """A mapping whose names and texts the format does not know, such as what a plugin reads."""
 
 
+@dataclass(frozen=True)
+class Data(Spec):
+    """A mapping of values whose types are kept: numbers, truths, texts, and lists and mappings of them."""
+
+
 _TUPLES = (Vector, Colour)
 
 
@@ -273,12 +278,11 @@ def check_numbers(part: object) -> None:
                 raise not_finite(value, name, f"{kind.__name__}.{name}", (name,))
         elif spec.bound and not (spec.bound.holds(value) or math.isnan(value)):
             unit = spec.unit.text(Motion.OTHER)
-            raise RobotValidationError(
-                ValidationErrorCode.OUT_OF_RANGE,
+            raise RobotValidationError.out_of_range(
                 f"{name} must be {spec.bound.words}{unit and f' {unit}'}, found {value}",
-                target=f"{kind.__name__}.{name}",
-                value=value,
-                field=(name,),
+                f"{kind.__name__}.{name}",
+                value,
+                name,
             )
     require_finite(part, *specs)
 
@@ -294,12 +298,8 @@ def require_choice(found: str, words: type[StrEnum], what: str, target: str, fie
 
     """
     if found not in tuple(words):
-        raise RobotValidationError(
-            ValidationErrorCode.INVALID_VALUE,
-            f"{what} must be one of {', '.join(words)}, found '{found}'",
-            target=target,
-            value=found,
-            field=(field,),
+        raise RobotValidationError.invalid(
+            f"{what} must be one of {', '.join(words)}, found '{found}'", target, found, field
         )
 
 
@@ -328,10 +328,4 @@ def is_finite(value: float) -> bool:
 
 def not_finite(value: float | None, what: str, target: str, field: FieldPath) -> RobotMathError:
     """Return the error for a number that is not finite."""
-    return RobotMathError(
-        ValidationErrorCode.INVALID_VALUE,
-        f"{what} must be a finite number, found {value}",
-        target=target,
-        value=value,
-        field=field,
-    )
+    return RobotMathError.invalid(f"{what} must be a finite number, found {value}", target, value, *field)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from linkforge_compile.core.exceptions import RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotPhysicsError
 from linkforge_compile.core.models.geometry import (
     Box,
     Capsule,
@@ -164,9 +164,7 @@ def inertial_of_shapes(
 
     """
     if not shapes:
-        raise RobotPhysicsError(
-            ValidationErrorCode.VALUE_EMPTY, "there is no shape to compute an inertia from", target="Inertial"
-        )
+        raise RobotPhysicsError.empty("there is no shape to compute an inertia from", "Inertial")
     solids = meshes or {}
     masses = _masses([_volume(geometry, solids) for geometry, _ in shapes], mass, density)
     body = combined_inertial(
@@ -190,9 +188,7 @@ def _masses(volumes: Sequence[float], mass: float | None, density: float | None)
         if density <= 0:
             raise _out_of_range("density", "must be above 0 kg/m³", density)
         return [density * volume for volume in volumes]
-    raise RobotPhysicsError(
-        ValidationErrorCode.INVALID_VALUE, "give either a mass or a density", target="Inertial", field=("mass",)
-    )
+    raise RobotPhysicsError.invalid("give either a mass or a density", "Inertial", None, "mass")
 
 
 def _volume(geometry: Geometry, meshes: Mapping[Mesh, Solid]) -> float:
@@ -217,23 +213,16 @@ def _solid(mesh: Mesh, meshes: Mapping[Mesh, Solid]) -> Solid:
 
 
 def _no_primitive(mesh: Mesh) -> RobotPhysicsError:
-    return RobotPhysicsError(
-        ValidationErrorCode.INVALID_VALUE,
+    return RobotPhysicsError.invalid(
         f"mesh '{mesh.resource}' is not a primitive, so its inertia cannot be computed from its dimensions; "
         "state mass and inertia, use primitive collision shapes, or give its solid in `meshes`",
-        target="Geometry",
-        value=mesh.resource,
+        "Geometry",
+        mesh.resource,
     )
 
 
 def _out_of_range(name: str, rule: str, found: float) -> RobotPhysicsError:
-    return RobotPhysicsError(
-        ValidationErrorCode.OUT_OF_RANGE,
-        f"{name} {rule}, found {found}",
-        target=name.capitalize(),
-        value=found,
-        field=(name,),
-    )
+    return RobotPhysicsError.out_of_range(f"{name} {rule}, found {found}", name.capitalize(), found, name)
 
 
 def _matrix(inertia: InertiaTensor) -> Matrix:
@@ -298,11 +287,8 @@ class Solid:
         stretch = abs(x * y * z)
         volume = self.volume * stretch
         if not 0 < volume < math.inf:
-            raise RobotPhysicsError(
-                ValidationErrorCode.OUT_OF_RANGE,
-                f"a scale of {scale} takes the volume of the mesh to {volume} m³",
-                target="MeshScale",
-                value=scale,
+            raise RobotPhysicsError.out_of_range(
+                f"a scale of {scale} takes the volume of the mesh to {volume} m³", "MeshScale", scale
             )
         return Solid(
             volume,

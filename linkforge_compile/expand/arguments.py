@@ -243,16 +243,11 @@ def names_of_variants(path: Path, loader: Loader) -> Iterable[str]:
 
 def report_unknown_variants(variant: str | None, spec: SpecFile, sink: Diagnostics) -> bool:
     """Report each name in `--variant` that the compiled file does not have; return whether there is one."""
-    known = Variants.of(spec).by_name
+    known, text = Variants.of(spec).by_name, f"--variant {variant}"
     unknown = [name for name in names_in_variant(variant, known) if name not in known]
     for name in unknown:
-        _report_unknown_variant(name, f"--variant {variant}", spec, sink)
+        where = _span(SourceFile(COMMAND_LINE, text), text.index(name, len("--variant ")), len(name))
+        hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"
+        hint = "" if nearest(name, known) else hint
+        sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint=hint, near=known))
     return bool(unknown)
-
-
-def _report_unknown_variant(name: str, text: str, spec: SpecFile, sink: Diagnostics) -> None:
-    where = _span(SourceFile(COMMAND_LINE, text), text.index(name, len("--variant ")), len(name))
-    known = Variants.of(spec).by_name
-    near = nearest(name, known)
-    hint = f"; its variants are {listed([*known], 'and')}" if known else "; it declares no variants"
-    sink.report(UNKNOWN_VARIANT.at(where, spec=spec.file.name, name=name, hint="" if near else hint, near=known))

@@ -90,13 +90,13 @@ class Expressions(ExpressionScan):
 
     def charge_value(self, value: Value, where: Span, sink: Diagnostics) -> bool:
         """Charge the budget for a value; False for one that is nested too deep, which is reported."""
-        size = size_of(value, max(0, self.budget.left(Limit.VALUES)))
-        if size.depth > MAX_COMPUTED_DEPTH:
+        nodes, characters, depth = size_of(value, max(0, self.budget.left(Limit.VALUES)))
+        if depth > MAX_COMPUTED_DEPTH:
             limit = f"{MAX_COMPUTED_DEPTH} lists and maps inside each other"
             sink.report(TREE_TOO_LARGE.at(where, limit=limit))
             return False
-        self.budget.spend(Limit.VALUES, size.nodes, where)
-        self.budget.spend(Limit.CHARACTERS_MADE, size.characters, where)
+        self.budget.spend(Limit.VALUES, nodes, where)
+        self.budget.spend(Limit.CHARACTERS_MADE, characters, where)
         return True
 
 

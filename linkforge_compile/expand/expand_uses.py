@@ -15,7 +15,7 @@ from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope
 from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
-from linkforge_compile.expand.modules import ModuleBody, ModuleEntry, read_modules
+from linkforge_compile.expand.modules import ModuleEntry, apply_override, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
 from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
@@ -107,10 +107,11 @@ class _Expansion:
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
         removed = DeletedNames(scope.evaluator.disabled, scope.evaluator.disabled_prefixes)
         references = tuple(scope.references)
-        if use.entry and use.entry.overrides:
-            body = ModuleBody(tree, entries, removed).with_overrides(use.entry.overrides)
-            references = references_left(references, tree, body.tree) if references else references
-            tree, entries, removed = body.tree, body.entries, body.removed
+        written = tree
+        for override in use.entry.overrides if use.entry else ():
+            tree, entries, removed = apply_override(override, tree, entries, removed)
+        if references and tree is not written:
+            references = references_left(references, written, tree)
         charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
         modules = tuple(self._expand_module(entry, use, scope) for entry in entries)
         writers, compiled = use.writers(scope.packages), self._state.compiled

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import reduce
 from pathlib import Path
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostics
@@ -171,50 +170,41 @@ def _report_field(node: YamlNode, field: str, name: str, expected: str, sink: Di
     return YamlFault(node.span)
 
 
-@dataclass(frozen=True)
-class ModuleBody:
-    """The content of one use of a file before its modules are read; `removed` are the names deleted so far."""
+def apply_override(
+    override: Override, tree: YamlMap, entries: tuple[ModuleEntry, ...], removed: DeletedNames
+) -> tuple[YamlMap, tuple[ModuleEntry, ...], DeletedNames]:
+    """Return the tree of one use of a file, its modules and the names removed so far, with an override applied.
 
-    tree: YamlMap
-    entries: tuple[ModuleEntry, ...]
-    removed: DeletedNames
-
-    def with_overrides(self, overrides: Iterable[Override]) -> ModuleBody:
-        """Return the body with overrides applied in order; their parts for nested modules go to the entries."""
-        return reduce(ModuleBody._with_override, overrides, self)
-
-    def _with_override(self, override: Override) -> ModuleBody:
-        own, nested = _split_nested(override)
-        modules = YamlMap({entry.name: _section_entry(entry) for entry in self.entries}, self.tree.span)
-        before = with_frames_as_joints(self.tree.with_value("modules", modules))
-        changed = apply_patch(own, before, self.removed)
-        patched = without_links(changed, {*before.section("links")} - {*changed.section("links")})
-        report_lost(changed, patched, own.patch, override.sink)
-        left = patched.section("modules")
-        patched_entries = (
-            _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
-            for entry in self.entries
-            if entry.name in left
-        )
-        entries = tuple(
-            replace(entry, overrides=(*entry.overrides, nested[entry.name])) if entry.name in nested else entry
-            for entry in patched_entries
-        )
-        names = dict(deleted_names(before, patched, own.patch))
-        gone = [(entry, names[entry.name]) for entry in self.entries if entry.name in names]
-        names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
-        removed = DeletedNames(names, {entry.prefix: note for entry, note in gone}) | self.removed
-        return ModuleBody(patched.without("modules"), entries, removed)
+    The parts of the override for nested modules go to their entries.
+    """
+    own, nested = _split_nested(override)
+    modules = YamlMap({entry.name: _section_entry(entry) for entry in entries}, tree.span)
+    before = with_frames_as_joints(tree.with_value("modules", modules))
+    changed = apply_patch(own, before, removed)
+    patched = without_links(changed, {*before.section("links")} - {*changed.section("links")})
+    report_lost(changed, patched, own.patch, override.sink)
+    left = patched.section("modules")
+    patched_entries = (
+        _patched_entry(entry, left[entry.name].value, modules.entries[entry.name].value, override)
+        for entry in entries
+        if entry.name in left
+    )
+    kept = tuple(replace(one, overrides=(*one.overrides, *nested.get(one.name, ()))) for one in patched_entries)
+    names = dict(deleted_names(before, patched, own.patch))
+    gone = [(entry, names[entry.name]) for entry in entries if entry.name in names]
+    names |= {joint_name_of(entry.name, entry.ref.node): note for entry, note in gone}
+    deleted = DeletedNames(names, {entry.prefix: note for entry, note in gone})
+    return patched.without("modules"), kept, deleted | removed
 
 
-def _split_nested(override: Override) -> tuple[Override, Mapping[str, Override]]:
+def _split_nested(override: Override) -> tuple[Override, Mapping[str, tuple[Override, ...]]]:
     """Return an override without those of nested modules, and those by the name of the module."""
     section = override.patch.get("modules")
     if not isinstance(section, YamlMap):
         return override, {}
     maps = {entry.name: entry.value for entry in section if isinstance(entry.value, YamlMap)}
     patches = {name: fields.get("override") for name, fields in maps.items()}
-    nested = {name: replace(override, patch=one) for name, one in patches.items() if isinstance(one, YamlMap)}
+    nested = {name: (replace(override, patch=one),) for name, one in patches.items() if isinstance(one, YamlMap)}
     rest = section.mapped(lambda one: maps[one.name].without("override") if one.name in maps else one.value)
     return replace(override, patch=override.patch.with_value("modules", rest)), nested
 

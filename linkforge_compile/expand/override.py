@@ -34,7 +34,9 @@ from linkforge_compile.source import Change, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
-SECTIONS = ("links", "joints", "modules", "mount", "materials", "sensors", "transmissions", "ros2_control")
+SECTIONS = (
+    *("links", "joints", "modules", "mount", "materials", "sensors", "transmissions", "ros2_control", "controllers"),
+)
 """The sections whose entries have names that overrides refer to."""
 
 _GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import (
@@ -45,30 +46,25 @@ _MAX_SHOWN_TEXT = 60
 """The longest list of choices that a message shows [characters]."""
 
 
-@dataclass(frozen=True)
-class Writer:
-    """Where values of parameters are written: `evaluator` has the scope there, None for plain data.
+class _Written(NamedTuple):
+    """A value that is written for a parameter: `settings` has what sets it, empty if that is not selected.
 
-    `sink` receives their faults, and `folder` is where relative paths start, None for nowhere.
+    `sink` receives its faults. `evaluator` has the scope of its place, None for plain data, and `folder` is where
+    relative paths start there, None for nowhere.
     """
 
+    node: YamlNode
+    settings: list[Setting]
     sink: Diagnostics
     evaluator: Evaluator | None
     folder: Path | None
 
-    def value(self, node: YamlNode, type_: ParameterType) -> Value | Fault:
-        """Return the value of a node; a text type keeps a scalar without expressions as written."""
-        if type_.is_text and isinstance(node, YamlScalar) and not (self.evaluator and has_expression(node.text)):
-            return node.text
-        return self.evaluator.value(node) if self.evaluator else plain_value(node)
 
-    def place(self, node: YamlNode) -> Span:
-        return self.evaluator.place(node) if self.evaluator else node.span
-
-    @property
-    def names(self) -> Container[str]:
-        """The names that expressions may use there."""
-        return self.evaluator.scope if self.evaluator else ()
+def _value_of(node: YamlNode, type_: ParameterType, evaluator: Evaluator | None) -> Value | Fault:
+    """Return the value of a node; a text type keeps a scalar without expressions as written."""
+    if type_.is_text and isinstance(node, YamlScalar) and not (evaluator and has_expression(node.text)):
+        return node.text
+    return evaluator.value(node) if evaluator else plain_value(node)
 
 
 @dataclass(frozen=True)
@@ -139,30 +135,30 @@ def parameter_value(
     if type_ is None:
         return FAULT, None
     parameter = make_parameter(declaration, type_, evaluator)
-    declared = [Note("the parameter is declared here", declaration.key.span)]
-    candidates: list[tuple[YamlNode, Writer, list[Setting]]] = []
+    notes = [Note("the parameter is declared here", declaration.key.span)]
+    all_written: list[_Written] = []
     if (node := bound.node(declaration.name, type_)) is not None:
-        writer = Writer(AnnotatingSink(bound.sink, declared), bound.arguments.evaluator, bound.arguments.folder)
-        candidates.append((node, writer, bound.settings(declaration.name, node)))
+        sink, set_by = AnnotatingSink(bound.sink, notes), bound.settings(declaration.name, node)
+        all_written.append(_Written(node, set_by, sink, bound.arguments.evaluator, bound.arguments.folder))
     else:
         _report_disagreement(parameter, variants, evaluator)
     for name, node in variants.settings_of(declaration.name):
-        writer = Writer(AnnotatingSink(evaluator.sink, declared), evaluator, spec.part_at(node.span).folder)
-        is_selected = name in variants.selected
-        candidates.append((node, writer, [Setting(Kind.VARIANT, node, evaluator, name)] if is_selected else []))
+        sink = AnnotatingSink(evaluator.sink, notes)
+        set_by = [Setting(Kind.VARIANT, node, evaluator, name)] if name in variants.selected else []
+        all_written.append(_Written(node, set_by, sink, evaluator, spec.part_at(node.span).folder))
     if (node := declaration.default) is not None:
-        writer = Writer(evaluator.sink, evaluator, spec.part_at(node.span).folder)
-        candidates.append((node, writer, [Setting(Kind.PARAMETER_DEFAULT, node, evaluator)]))
+        set_by = [Setting(Kind.PARAMETER_DEFAULT, node, evaluator)]
+        all_written.append(_Written(node, set_by, evaluator.sink, evaluator, spec.part_at(node.span).folder))
     value: Value | Fault | None = None
     settings: list[Setting] = []
-    for node, writer, set_by in candidates:
-        is_used = bool(set_by) and value is None
+    for written in all_written:
+        is_used = bool(written.settings) and value is None
         # A value without expressions is checked even if it is not used.
-        if is_used or not evaluator.expressions.is_computed(node):
-            found = _fitting_value(parameter, node, writer, spec, evaluator.expressions)
+        if is_used or not evaluator.expressions.is_computed(written.node):
+            found = _fitting_value(parameter, written, spec, evaluator.expressions)
             value = found if is_used else value
         if value is not None:
-            settings += set_by
+            settings += written.settings
     if not settings:
         return value, None
     is_normalized = type_.name in ("integer", "boolean")
@@ -170,25 +166,27 @@ def parameter_value(
 
 
 def _fitting_value(
-    parameter: Parameter, node: YamlNode, writer: Writer, spec: SpecFile, expressions: Expressions
+    parameter: Parameter, written: _Written, spec: SpecFile, expressions: Expressions
 ) -> Value | Fault | None:
     """Return what is written for a parameter as a value of its type; None for null, FAULT after a reported error.
 
     A path is then relative to the file that declares the parameter.
     """
-    value = writer.value(node, parameter.type)
+    node, sink, evaluator = written.node, written.sink, written.evaluator
+    value = _value_of(node, parameter.type, evaluator)
     if value is None or value is FAULT:
         return value
-    if not parameter.type.is_text and report_interpolated_number(node, value, expressions, writer.names, writer.sink):
+    names: Container[str] = evaluator.scope if evaluator else ()
+    if not parameter.type.is_text and report_interpolated_number(node, value, expressions, names, sink):
         return FAULT
     if parameter.pattern is not None:
         expressions.budget.spend(Limit.STEPS, parameter.pattern.steps(str(value)), node.span)
-    converted = parameter.convert(value, writer.place(node), writer.sink, writer.names)
+    converted = parameter.convert(value, evaluator.place(node) if evaluator else node.span, sink, names)
     if parameter.type.name != "file" or not isinstance(converted, str):
         return FAULT if converted is None else converted
-    path = rebased(converted, writer.folder, spec)
+    path = rebased(converted, written.folder, spec)
     if path != converted and Path(path).is_absolute():
-        writer.sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=converted))
+        sink.report(FILE_OUTSIDE_PACKAGE.at(node.span, path=converted))
     return path
 
 
@@ -209,7 +207,7 @@ def _report_disagreement(parameter: Parameter, variants: Variants, evaluator: Ev
 
 def _constant(type_: ParameterType, node: YamlNode, evaluator: Evaluator) -> Value:
     """Return the value of a node as one of the type, None if it is computed or does not fit."""
-    value = FAULT if evaluator.expressions.is_computed(node) else Writer(evaluator.sink, None, None).value(node, type_)
+    value = FAULT if evaluator.expressions.is_computed(node) else _value_of(node, type_, None)
     return None if value is FAULT else type_.convert(value)
 
 
@@ -238,7 +236,7 @@ def make_parameter(declaration: Declaration, type_: ParameterType, evaluator: Ev
 
 
 def _constraint(unbounded: Parameter, node: YamlNode | None, evaluator: Evaluator) -> Value:
-    value = FAULT if node is None else Writer(evaluator.sink, evaluator, None).value(node, unbounded.type)
+    value = FAULT if node is None else _value_of(node, unbounded.type, evaluator)
     if node is None or value is FAULT:
         return None
     return unbounded.convert(value, node.span, evaluator.sink, evaluator.scope)

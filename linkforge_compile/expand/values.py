@@ -93,18 +93,10 @@ def with_final_paths(value: Value, shape: Shape, is_free: bool) -> Value:
     return value
 
 
-class Size(NamedTuple):
-    """The size of a value: nodes (keys and tags of raw XML included), characters, and the nesting depth."""
+def size_of(value: Value, max_nodes: int) -> tuple[int, int, int]:
+    """Return how many nodes (keys and tags of raw XML included) and characters a value has, and its nesting depth.
 
-    nodes: int
-    characters: int
-    depth: int
-
-
-def size_of(value: Value, max_nodes: int) -> Size:
-    """Return the size of a value; counting stops after `max_nodes` nodes.
-
-    Values share parts, so that ten short variables can make a billion nodes.
+    Counting stops after `max_nodes` nodes: values share parts, so that ten short variables can make a billion nodes.
     """
     nodes = characters = depth = 0
     waiting = [(value, 0)]
@@ -119,7 +111,7 @@ def size_of(value: Value, max_nodes: int) -> Size:
         elif isinstance(part, Mapping):
             nodes, characters = nodes + len(part), characters + sum(map(len, part))
             waiting.extend((item, level + 1) for item in part.values())
-    return Size(nodes, characters, depth)
+    return nodes, characters, depth
 
 
 def describe(value: Value) -> str:

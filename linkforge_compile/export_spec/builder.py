@@ -188,7 +188,8 @@ class SpecBuilder:
         if value is None or isinstance(value, bool):
             return YamlScalar("null" if value is None else _scalar_text(value), value, _NOWHERE)
         if isinstance(value, int | float):
-            return YamlScalar(_scalar_text(value), value, _NOWHERE)
+            is_whole = isinstance(value, float) and value.is_integer()
+            return YamlScalar(repr(float(value)) if is_whole else _scalar_text(value), value, _NOWHERE)
         return _text(str(value))
 
     def _raw(self, texts: Sequence[str]) -> YamlNode | None:

@@ -10,6 +10,7 @@ from linkforge_compile.core.fields import (
     Child,
     Children,
     Colour,
+    Data,
     Flag,
     Noise,
     Number,
@@ -129,6 +130,8 @@ def _export(
             return export_element(builder, value, motion)
         case Parameters():
             return builder.free_map(value)
+        case Data():
+            return builder.data(value) if value else None
     return builder.texts(value) if spec.container else builder.text(value)
 
 

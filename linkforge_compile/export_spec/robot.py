@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.models.geometry import Material, Vector3
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointType
 from linkforge_compile.core.models.link import COLLISION, VISUAL, Collision, Link, LinkPhysics, Visual, shortest_setting
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
@@ -47,6 +47,9 @@ def spec_of(robot: Robot, builder: SpecBuilder) -> YamlMap:
         transmissions=builder.named("transmission", transmissions),
         ros2_control=builder.named(
             "ros2_control", ((one.name, export_element(builder, one)) for one in robot.ros2_controls)
+        ),
+        controllers=builder.named(
+            "controller", ((one.name, export_element(builder, one)) for one in robot.controllers)
         ),
         gazebo=export_blocks(builder, gazebo.robot, with_reference=True),
         semantic=export_semantic(builder, robot.semantic, robot.joints) if robot.has_semantic else None,
@@ -167,13 +170,6 @@ def _is_frame(link: Link, joint: Joint) -> bool:
     return is_empty and joint == Joint(joint.name, JointType.FIXED, joint.parent, joint.child, joint.origin)
 
 
-_AXES = {
-    sign + name: Vector3(*(factor if name == axis else 0.0 for axis in "xyz"))
-    for sign, factor in (("", 1.0), ("-", -1.0))
-    for name in "xyz"
-}
-
-
 def export_joint(builder: SpecBuilder, joint: Joint, gazebo: YamlNode | None) -> YamlMap:
     """Return a joint with the Gazebo blocks about it."""
     return export_element(builder, joint, joint.type.motion, axis=_axis(builder, joint), gazebo=gazebo)
@@ -186,7 +182,7 @@ def _axis(builder: SpecBuilder, joint: Joint) -> YamlNode | None:
     written = joint.axis_as_written
     if written and _direction(written) == joint.axis:
         return builder.numbers(written)
-    word = next((word for word, axis in _AXES.items() if axis == joint.axis), None)
+    word = next((word for word, axis in AXES.items() if axis == joint.axis), None)
     return builder.numbers(joint.axis) if word is None else builder.text(word)
 
 

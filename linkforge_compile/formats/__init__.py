@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from linkforge_compile.formats.format import NO_OPTIONS, Document, Format, Option, Options, Rendering
 from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
+from linkforge_compile.formats.moveit import MoveIt
+from linkforge_compile.formats.ros2_controllers import Ros2Controllers
 from linkforge_compile.formats.sdf import Sdf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
@@ -22,7 +24,9 @@ __all__ = [
     "FORMATS",
     "JOINT_LIMITS",
     "MJCF",
+    "MOVEIT",
     "NO_OPTIONS",
+    "ROS2_CONTROLLERS",
     "SDF",
     "SRDF",
     "URDF",
@@ -38,9 +42,10 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF, SDF, JOINT_LIMITS = Urdf(), Srdf(), Mjcf(), Sdf(), JointLimitsYaml()
+URDF, SRDF, MJCF, SDF = Urdf(), Srdf(), Mjcf(), Sdf()
+JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT = JointLimitsYaml(), Ros2Controllers(), MoveIt()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF, JOINT_LIMITS)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF, JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

@@ -23,7 +23,7 @@ from linkforge_compile.formats.sandbox import FolderEnvironment
 from linkforge_compile.formats.template_loader import FolderLoader, OutsideError, UnreadableError
 from linkforge_compile.formats.xml_text import harmless_in_comment
 from linkforge_compile.limits import MAX_NESTED_ELEMENTS, Budget
-from linkforge_compile.resources import templates_folder
+from linkforge_compile.resources import format_templates, templates_folder
 from linkforge_compile.roots import ANYWHERE, Roots
 from linkforge_compile.source import SourceFile
 
@@ -46,9 +46,8 @@ _NOT_DOCUMENTS = ("_", ".")
 
 
 def own_names() -> frozenset[str]:
-    """Return the paths of the packaged templates that a user's may replace: all but those of `linkforge init`."""
-    names = (path.relative_to(templates_folder()).as_posix() for path in templates_folder().rglob(f"*{SUFFIX}"))
-    return frozenset(name for name in names if not name.startswith("init/"))
+    """Return the paths of the packaged templates that a user's may replace."""
+    return frozenset(path.relative_to(templates_folder()).as_posix() for path in format_templates())
 
 
 def own_folders() -> list[str]:

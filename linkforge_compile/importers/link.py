@@ -7,7 +7,7 @@ from functools import partial
 from typing import TypeAlias
 
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Material, Mesh, Sphere
-from linkforge_compile.core.models.joint import HAVE_NO_AXIS, NEED_LIMITS, Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import AXES, HAVE_NO_AXIS, NEED_LIMITS, Joint, JointLimits, JointType
 from linkforge_compile.core.models.link import COLLISION, KINDS, VISUAL, Collision, Inertial, Visual, shortest_setting
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Note
@@ -120,11 +120,7 @@ def _shape_and_pose(visual: YamlMap) -> YamlMap:
 
 
 JOINT_TYPES = tuple(map(str, JointType))
-_AXES: Mapping[tuple[float | None, ...], str] = {
-    tuple(sign * (letter == name) for letter in "xyz"): f"{'-' if sign < 0 else ''}{name}"
-    for name in "xyz"
-    for sign in (1.0, -1.0)
-}
+_WORDS: Mapping[tuple[float | None, ...], str] = {tuple(axis): word for word, axis in AXES.items()}
 
 
 def read_joint(joint: ElementReader, names: Names, blocks: Blocks) -> YamlMap:
@@ -155,7 +151,7 @@ def _axis(axis: ElementReader) -> YamlNode:
     axis.pass_rest_up()
     if xyz is None:
         return axis.draft.text("x", axis.span)
-    word = _AXES.get(tuple(map(number_of, (axis.element.get("xyz") or "").split())))
+    word = _WORDS.get(tuple(map(number_of, (axis.element.get("xyz") or "").split())))
     return axis.draft.text(word, xyz) if word else xyz
 
 

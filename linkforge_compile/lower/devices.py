@@ -1,4 +1,4 @@
-"""Sensors, transmissions, ros2_control systems and Gazebo blocks."""
+"""Sensors, transmissions, ros2_control systems, controllers and Gazebo blocks."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TypedDict, TypeVar
 
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.fields import BEYOND_EPSILON, Child, field_specs
+from linkforge_compile.core.models.controller import MANAGER, Controller
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.core.models.ros2_control import (
@@ -23,16 +24,9 @@ from linkforge_compile.core.models.transmission import Transmission, Transmissio
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import TAG_TWICE
-from linkforge_compile.lower.elements import (
-    EXTRA_KEYS,
-    extras_of,
-    free_elements,
-    is_absent,
-    lower_element,
-    lower_fields,
-    texts_in,
-)
+from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_element, lower_fields
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_in
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
 from linkforge_compile.source import SourceRef
@@ -48,6 +42,7 @@ class Devices(TypedDict, total=False):
     transmissions: list[Transmission]
     ros2_controls: list[Ros2Control]
     gazebo_elements: list[GazeboElement]
+    controllers: list[Controller]
 
 
 def lower_devices(file: Fields) -> Devices:
@@ -58,6 +53,7 @@ def lower_devices(file: Fields) -> Devices:
         "transmissions": _lowered(file.each("transmissions", "transmission", partial(_lower_transmission, joints))),
         "ros2_controls": _lowered(file.each("ros2_control", "ros2_control", _lower_control)),
         "gazebo_elements": list(_lower_gazebo_elements(file, joints)),
+        "controllers": _lowered(file.each("controllers", "controller", _lower_controller)),
     }
 
 
@@ -133,6 +129,11 @@ def _lower_control(fields: Fields, name: str) -> Ros2Control | None:
         sensors=_lower_components(Ros2ControlSensor, fields, "sensors"),
         gpios=_lower_components(Ros2ControlGpio, fields, "gpios"),
     )
+
+
+def _lower_controller(fields: Fields, name: str) -> Controller | None:
+    required = "" if name == MANAGER else "joint_trajectory_controller/JointTrajectoryController"
+    return lower_element(Controller, fields, name=name, type=fields.text("type", required=required))
 
 
 def _lower_components(kind: type[Component], fields: Fields, key: str) -> list[Component]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -15,6 +15,7 @@ from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.lower.elements import lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import PlainData
 from linkforge_compile.lower.joint import JointEnds, joint_between, lower_joints
 from linkforge_compile.lower.link import lower_links
 from linkforge_compile.lower.mesh_solids import MeshReader
@@ -30,11 +31,9 @@ if TYPE_CHECKING:
     from linkforge_compile.lower.semantic import LoweredSemantic, WrittenState
 
 _SECTIONS_OF_NAMES = ("links", "joints", "frames", "mount", "modules", "semantic", "include")
-_DEVICE_SECTIONS = frozenset({"sensors", "transmissions", "ros2_control"})
+_DEVICE_SECTIONS = frozenset({"sensors", "transmissions", "ros2_control", "controllers"})
 _SECTIONS_OF_MATERIALS = ("materials", "include")
 _SECTIONS_OF_SEMANTIC_NAMES = ("virtual_joints", "groups", "group_states", "end_effectors")
-
-PlainData: TypeAlias = "None | bool | int | float | str | list[PlainData] | dict[str, PlainData]"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.constants import EPSILON, UNKNOWN
 from linkforge_compile.core.models.geometry import Transform, Vector3
-from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS, Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import AXES, HAVE_NO_AXIS, HAVE_NO_LIMITS, Joint, JointLimits, JointType
 from linkforge_compile.diagnostics.codes.model import (
     JOINT_TO_ITSELF,
     LIMITS_CROSSED,
@@ -38,17 +38,8 @@ _LIMITS_EXAMPLE = {
 # Substitutes for what is faulty, which is reported: the joint stays, so that checks see its ends and a whole tree.
 # They are never written, because a compile with errors gives no robot.
 _SUBSTITUTE_TYPE = JointType.REVOLUTE
-_SUBSTITUTE_AXIS = Vector3(0.0, 0.0, 1.0)
+_SUBSTITUTE_AXIS = AXES["z"]
 SUBSTITUTE_LIMITS = JointLimits(-UNKNOWN, UNKNOWN, 1.0, 1.0)
-
-_AXES = {
-    "x": Vector3(1.0, 0.0, 0.0),
-    "y": Vector3(0.0, 1.0, 0.0),
-    "z": Vector3(0.0, 0.0, 1.0),
-    "-x": Vector3(-1.0, 0.0, 0.0),
-    "-y": Vector3(0.0, -1.0, 0.0),
-    "-z": Vector3(0.0, 0.0, -1.0),
-}
 
 
 class JointEnds(NamedTuple):
@@ -127,7 +118,7 @@ def _lower_axis(fields: Fields, joint_type: JointType | None) -> tuple[Vector3 |
     if node is None or isinstance(node, YamlFault):
         return _SUBSTITUTE_AXIS, None
     if not isinstance(node, YamlList):
-        axis = _AXES.get(node.text) if isinstance(node, YamlScalar) else None
+        axis = AXES.get(node.text) if isinstance(node, YamlScalar) else None
         if axis is None:
             fields.report(UNKNOWN_AXIS, node, found=describe_node(node))
         return axis or _SUBSTITUTE_AXIS, None

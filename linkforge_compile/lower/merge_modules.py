@@ -277,6 +277,7 @@ def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:
         ("sensor", robot.sensors),
         ("transmission", robot.transmissions),
         ("ros2_control", robot.ros2_controls),
+        ("controller", robot.controllers),
     ):
         for part in parts:
             yield (kind, part.name), part.source

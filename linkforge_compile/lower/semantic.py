@@ -27,15 +27,9 @@ from linkforge_compile.diagnostics.codes.model import (
     UNKNOWN_STATE,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
-from linkforge_compile.lower.elements import (
-    EXTRA_KEYS,
-    extras_of,
-    is_absent,
-    lower_children,
-    lower_element,
-    lower_fields,
-)
+from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_children, lower_element, lower_fields
 from linkforge_compile.lower.fields import Fields
+from linkforge_compile.lower.free_parts import is_absent
 from linkforge_compile.lower.joint import position_type
 from linkforge_compile.lower.numbers import LENGTH
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar, is_null

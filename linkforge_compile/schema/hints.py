@@ -157,6 +157,7 @@ ESSENTIAL_KEYS = {
     "sensors": "link",
     "transmissions": "joints",
     "ros2_control blocks": "hardware_plugin",
+    "controllers": "command_interfaces",
     "virtual joints": "child_link",
     "end effectors": "parent_link",
 }

@@ -118,7 +118,6 @@ def test_a_broken_map_is_reported(build: Path, text: str):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("links:\n", "syntax error in line 1"),
         ("<robot>\n<link>\n</robot>\n", "expected </link>, found </robot> in line 3"),
         ("<!DOCTYPE robot>\n<robot/>", "it has a document type in line 1"),
     ],

@@ -12,15 +12,15 @@ from hypothesis import strategies as st
 
 from linkforge_compile.compare import compare, removed_public_names
 from linkforge_compile.compare.walk import CompareContext, walk
-from linkforge_compile.core import Robot
+from linkforge_compile.core import Robot, models
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Color, Material, Sphere, Vector3
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Inside
+from tests.core.test_schemas import CLASSES, WITHOUT_SCHEMA
 from tests.export_spec.test_every_field import full, parts
 from tests.strategies import robots
-from tests.test_coverage import CLASSES
 
 UNTOLD = {"source", "resource_resolver", "axis_as_written", "shape_order", "after_links"}
 """Fields that say where and how it was written."""
@@ -101,8 +101,10 @@ def test_no_change_of_a_single_field_is_silent(part: object):
 
 def test_every_field_of_every_part_was_changed_by_that():
     changed = {(type(part), field) for part in PARTS for field, other in changed_parts(part) if other != part}
-    kinds = [kind for kind in CLASSES if is_dataclass(kind) and kind is not Robot]
-    told = {(kind.__name__, field.name) for kind in kinds for field in fields(kind) if field.compare}
+    kinds = [getattr(models, name) for name in {*CLASSES.values(), *WITHOUT_SCHEMA}]
+    told = {
+        (kind.__name__, field.name) for kind in kinds if is_dataclass(kind) for field in fields(kind) if field.compare
+    }
     # No other type of hardware takes the joints of that robot; `test_robots` changes it.
     assert told - {(kind.__name__, field) for kind, field in changed} - {("Ros2Control", "type")} == set()
 

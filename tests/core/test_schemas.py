@@ -14,6 +14,7 @@ from linkforge_compile.resources import schemas_folder
 
 EVERYWHERE = {"extra", "extra_attributes", "extra_inside"}
 CLASSES: Mapping[str, str] = {
+    "controller": "Controller",
     "geometry#box": "Box",
     "geometry#capsule": "Capsule",
     "geometry#cylinder": "Cylinder",
@@ -101,6 +102,7 @@ ONLY_IN_CLASS: Mapping[str, set[str]] = {
     "gazebo": {"reference"},  # the link or joint around it
 }
 REQUIRED_OF_SOME: Mapping[str, set[str]] = {
+    "controller": {"type"},  # of all but the manager
     "joint": {"limits"},  # of revolute and prismatic joints
     "sensor": {"contact"},  # of contact sensors
 }
@@ -111,6 +113,17 @@ WITHOUT_SCHEMA = {
     "Vector3",  # a list of numbers
 }
 
+WITHOUT_CLASS = {
+    "defaults",  # are in the elements that they complete
+    "frame",  # becomes the origin of what is in it
+    "material#color",  # a list of numbers
+    "material#visual_material",  # a `Material` too
+    "module",  # becomes links and joints
+    "module#module_joint",  # a `Joint` too
+    "parameter",  # replaced by its value
+    "robot",  # is read by hand
+    "ros2_control#interface",  # its keys are the names of its parameters
+}
 
 HOW_IT_WAS_WRITTEN = {
     "axis_as_written",
@@ -178,6 +191,15 @@ def test_every_class_of_the_model_has_a_schema():
     parts = (Part, models.Link, models.Interface)
     names = {name for name, kind in kinds.items() if isinstance(kind, type) and issubclass(kind, parts)}
     assert names - set(CLASSES.values()) == WITHOUT_SCHEMA
+
+
+def test_every_object_of_a_schema_has_a_class():
+    places = set()
+    for path in schemas_folder().glob("*.schema.json"):
+        schema, file = json.loads(path.read_text("utf-8")), path.name.removesuffix(".schema.json")
+        objects = {file: schema, **{f"{file}#{name}": one for name, one in schema.get("definitions", {}).items()}}
+        places |= {place for place, one in objects.items() if entries_of(one)}
+    assert places - set(CLASSES) == WITHOUT_CLASS
 
 
 @pytest.mark.parametrize("name", sorted(set(CLASSES.values())))

@@ -8,7 +8,7 @@ from tests.yaml_case import told
 
 CASE = ROOT / "tests" / "cases" / "urdf_in_its_words"
 TOLD_ELSEWHERE = {
-    "LF3005": "tests/expand/test_xacro_modules.py",
+    "LF3005": "tests/load/test_xacro_modules.py",
     "LF3301": "tests/importers/test_urdf.py",
     "LF5005": "tests/cases/bad_urdf",
     "LF6114": "tests/cases/refused_urdf",

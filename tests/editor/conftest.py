@@ -31,7 +31,7 @@ def server_command() -> list[str]:
     folder = cache / f"language-server-{digest}"
     if not (folder / MAIN).is_file():
         install(npm, folder)
-    return [node, str(folder / MAIN), "--stdio"]
+    return [node, "--require", str(HERE / "without_delay.js"), str(folder / MAIN), "--stdio"]
 
 
 def install(npm: str, folder: Path) -> None:

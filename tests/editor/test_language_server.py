@@ -24,9 +24,9 @@ SENSOR_BLOCKS = ["camera", "contact", "force_torque", "gps", "imu", "lidar"]
 LINK_KEYS = ["collision", "gazebo", "inertial", "physics", "shape_order", "visual"]
 SENSOR_KINDS = ["camera", "contact", "depth_camera", "force_torque", "gps", "gpu_lidar", "imu", "lidar", "ray"]
 ROBOT_KEYS = [
-    *("data", "defaults", "description", "frames", "gazebo", "include", "joints", "links", "materials", "metadata"),
-    *("modules", "mount", "packages", "parameters", "robot", "ros2_control", "semantic", "sensors", "transmissions"),
-    *("variables", "variants", "version"),
+    *("controllers", "data", "defaults", "description", "frames", "gazebo", "include", "joints", "links", "materials"),
+    *("metadata", "modules", "mount", "packages", "parameters", "robot", "ros2_control", "semantic", "sensors"),
+    *("transmissions", "variables", "variants", "version"),
 ]
 LIMITS = ["acceleration", "deceleration", "effort", "jerk", "lower", "upper", "velocity"]
 SEMANTIC_KEYS = [
@@ -124,8 +124,8 @@ OFFERED = {
     "in an override": (
         "modules:\n  arm:\n    override:\n      |",
         [
-            *("gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic", "sensors"),
-            "transmissions",
+            *("controllers", "gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic"),
+            *("sensors", "transmissions"),
         ],
     ),
     "what deletes in an override": ("modules:\n  arm:\n    override:\n      links:\n        cover: |", ["null"]),

@@ -186,8 +186,8 @@ OF_VENDORS = {
     "a section of that": (
         "use: arm.urdf, override: {jo|}",
         [
-            *("gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic", "sensors"),
-            "transmissions",
+            *("controllers", "gazebo", "joints", "links", "materials", "modules", "mount", "ros2_control", "semantic"),
+            *("sensors", "transmissions"),
         ],
     ),
     "the groups of its SRDF": ("use: arm.urdf, override: {semantic: {groups: {al|}}}", ["all"]),

@@ -3,7 +3,7 @@
 import pytest
 
 from linkforge_compile.diagnostics import BeyondLimitError, DeletedNames
-from linkforge_compile.expand.values import Size, size_of
+from linkforge_compile.expand.values import size_of
 from tests.expand.assembling import Assembled, assemble, plain, write
 
 
@@ -155,4 +155,4 @@ def test_a_file_without_repetition_is_not_walked_twice():
 
 
 def test_the_keys_of_computed_maps_count_as_values_for_they_need_as_much_memory():
-    assert size_of({"left": 1, "right": (2, "<a/>")}, 99) == Size(nodes=1 + 2 + 2 + 2 + 1, characters=9 + 4, depth=2)
+    assert size_of({"left": 1, "right": (2, "<a/>")}, 99) == (1 + 2 + 2 + 2 + 1, 9 + 4, 2)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 
 from linkforge_compile import core
+from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Color, Material, Transform, Vector3
 from linkforge_compile.core.models.joint import (
@@ -71,6 +72,7 @@ NOT_OF_A_SPEC = {
     (core.Joint, "axis_as_written"),
     (core.GazeboPlugin, "raw_xml"),
     *((kind, "extra_inside") for kind in NOTHING_INSIDE),
+    *((Controller, name) for name in ("extra_attributes", "extra_elements", "extra_inside")),  # in no XML
 }
 
 
@@ -148,6 +150,7 @@ def full() -> Robot:
         sensors=[replace(sensor, plugin=plugin) for sensor in _sensors(noise)],
         transmissions=[_transmission(), _without_offset()],
         ros2_controls=[_hardware()],
+        controllers=[_controller()],
         gazebo_elements=[
             GazeboElement("body", {"maxContacts": "10"}),
             GazeboElement(
@@ -218,6 +221,13 @@ def _without_offset() -> Transmission:
     return Transmission("idler", "custom", [joint], [actuator])
 
 
+def _controller() -> Controller:
+    names = {"group": "arm", "joints": ["slide"], "left_wheels": ["slide"], "right_wheels": ["slide"], "frame": "body"}
+    interfaces = {"command_interfaces": ["position"], "state_interfaces": ["velocity"]}
+    parameters = {"gain": 1.0, "count": 1, "is_on": True, "name": "1", "list": [1, 2], "nested": {"x": 0.5}}
+    return Controller("drive", "my/Controller", **names, **interfaces, sensor="wrench", parameters=parameters)
+
+
 def _hardware() -> Ros2Control:
     position = Interface("position", {"min": "-1"}, **raw("param min"))
     return Ros2Control(
@@ -239,7 +249,12 @@ def _semantic() -> core.SemanticRobotDescription:
         said,
         virtual_joints=[replace(joint, **EXTRAS) for joint in said.virtual_joints],
         groups=[
-            PlanningGroup("arm", ["arm"], ["slide"], [chain, chain], ["hand"], **raw("joint slide", "group hand")),
+            PlanningGroup(
+                "arm",
+                *(["arm"], ["slide"], [chain, chain], ["hand"]),
+                kinematics={"kinematics_solver_timeout": 1.0},
+                **raw("joint slide", "group hand"),
+            ),
             *said.groups[1:],
         ],
         end_effectors=[EndEffector("tool", "hand", "arm", "arm", **EXTRAS)],

@@ -8,6 +8,12 @@ from linkforge_compile.source.provenance import Kind, Provenance
 LONG_NAME = Code("LF7999", Severity.WARNING, "'{name}' is longer than {length} characters")
 
 
+def _map_of_joints(robot, before=0):
+    """Return the map of a document with a line for each joint, after lines without origin."""
+    places = [Provenance(Kind.WRITTEN, joint.source.span) for joint in robot.joints]
+    return SourceMap((*[()] * before, *((Segment(1, place),) for place in places)))
+
+
 class Joints(Format):
     """The joints of a robot, one a line, as text."""
 
@@ -22,9 +28,7 @@ class Joints(Format):
     def render(self, robot, rendering):
         case = getattr(str, self.options[0].value(rendering.options))
         text = "".join(f"{case(joint.name)}\n" for joint in robot.joints)
-        places = [Provenance(Kind.WRITTEN, joint.source.span) for joint in robot.joints]
-        source_map = SourceMap(tuple((Segment(1, place),) for place in places))
-        return (Document(text, map=source_map if rendering.has_map else None),)
+        return (Document(text, map=_map_of_joints(robot) if rendering.has_map else None),)
 
     def limits(self, robot, options):
         for joint in robot.joints:
@@ -32,18 +36,22 @@ class Joints(Format):
 
 
 class Folder(Format):
-    """Two files for a robot with joints."""
+    """Two files: one of YAML, with a source map, and one of text."""
 
     name = "folder"
     suffix = "_config"
     share_folder = ""
-    files = ("config/joints.txt", "links.txt")
+    files = ("config/joints.yaml", "links.txt")
     description = "a folder of files"
     keeps = "nothing"
     loses = "everything"
 
     def render(self, robot, rendering):
-        return tuple(Document(f"{name}\n", name) for name in self.files)
+        lines = "".join(f"{joint.name}: [0, 1]\n" for joint in robot.joints)
+        return (
+            Document(f"joints:\n{lines}", self.files[0], _map_of_joints(robot, 1) if rendering.has_map else None),
+            Document("links.txt\n", self.files[1]),
+        )
 
 
 class Limits(Format):
@@ -58,6 +66,4 @@ class Limits(Format):
 
     def render(self, robot, rendering):
         text = "".join(f"{joint.name}: 0\n" for joint in robot.joints)
-        places = [Provenance(Kind.WRITTEN, joint.source.span) for joint in robot.joints]
-        source_map = SourceMap(tuple((Segment(1, place),) for place in places))
-        return (Document(text, map=source_map if rendering.has_map else None),)
+        return (Document(text, map=_map_of_joints(robot) if rendering.has_map else None),)

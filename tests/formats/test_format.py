@@ -6,7 +6,11 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import formats
+from linkforge_compile.cli import INTERRUPTED
+from linkforge_compile.cli.commands import watch
 from linkforge_compile.cli.main import main
+from linkforge_compile.formats.environment import XML_ENDINGS
+from linkforge_compile.formats.format import TemplateFormat
 from tests.formats.example_formats import Folder, Joints, Limits
 
 SPEC = """\
@@ -63,6 +67,9 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
     for arguments in (["check", "arm.robot.yaml"], ["compile", "arm.robot.yaml"]):
         assert main(arguments) == 0
         assert "LF7999" not in capsys.readouterr().err
+    assert main(["check", "arm.robot.yaml", "--for", "joints"]) == 0
+    assert "LF7999" in capsys.readouterr().err
+    assert main(["check", "arm.robot.yaml", "--for", "joints", "--strict"]) == 1
     assert main(["compile", "arm.robot.yaml", "-o", "a.joints"]) == 0
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
 
@@ -110,7 +117,7 @@ def test_several_files_lie_below_their_target(tmp_path: Path, capsys: pytest.Cap
     assert main(["compile", *arguments]) == 0
     config = tmp_path / "out" / "arm_config"
     assert (config / "links.txt").read_text() == "links.txt\n"
-    assert (config / "config" / "joints.txt").read_text() == "config/joints.txt\n"
+    assert (config / "config" / "joints.yaml").read_text() == "joints:\nelbow: [0, 1]\n"
     capsys.readouterr()
     assert main(["compile", *arguments, "--check"]) == 0
     (config / "links.txt").write_text("other\n")
@@ -136,7 +143,7 @@ def test_outputs_have_the_name_that_is_given(tmp_path: Path):
     words = ["compile", "arm.robot.yaml", "-o", "out/", "--name", "a/left"]
     assert main([*words, "--format", "folder", "--format", "urdf"]) == 0
     files = {path.relative_to(tmp_path / "out").as_posix() for path in (tmp_path / "out").rglob("*") if path.is_file()}
-    assert files == {"a/left.urdf", "a/left_config/links.txt", "a/left_config/config/joints.txt"}
+    assert files == {"a/left.urdf", "a/left_config/links.txt", "a/left_config/config/joints.yaml"}
 
 
 @pytest.mark.parametrize(
@@ -153,3 +160,56 @@ def test_a_name_that_cannot_be_given_is_reported(words: list[str], message: str,
     Path("b.robot.yaml").write_text(SPEC)
     assert main(["compile", "b.robot.yaml", *words]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_every_command_knows_the_files_of_a_format_of_several(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    words = ["arm.robot.yaml", "-o", "out/"]
+    yaml_file, text = "out/arm_config/config/joints.yaml", "out/arm_config/links.txt"
+    assert main(["deps", *words, "--for", "folder"]) == 0
+    rule = capsys.readouterr().out
+    assert rule.startswith(f"{yaml_file} {text}: \\\n  arm.robot.yaml")
+    assert main(["compile", *words, "--format", "folder", "--depfile", "arm.d"]) == 0
+    assert Path("arm.d").read_text() == rule
+    assert main(["compile", *words, "--format", "folder", "--source-map"]) == 0
+    assert sorted(path.name for path in Path("out").rglob("*") if path.is_file()) == [
+        *("joints.yaml", "joints.yaml.map.json", "links.txt")
+    ]
+    capsys.readouterr()
+    for place in (f"{yaml_file}:2", f"{yaml_file}:2:9"):
+        assert main(["where", place]) == 0
+        assert "arm.robot.yaml:7:3" in capsys.readouterr().out
+    assert main(["where", yaml_file, "elbow"]) == 0
+    assert f"{yaml_file}:2: elbow: [0, 1]\nwritten at arm.robot.yaml:7:3" in capsys.readouterr().out
+    assert main(["where", yaml_file, "elbw"]) == 2
+    assert "there is no 'elbw' in out/arm_config/config/joints.yaml; did you mean 'elbow'?" in capsys.readouterr().err
+    assert main(["where", f"{text}:1"]) == 2
+    assert "`linkforge compile SPEC.robot.yaml --source-map`" in capsys.readouterr().err
+    Path(text).unlink()
+    assert main(["compile", *words, "--format", "folder", "--check"]) == 1
+    assert "there is no 'out/arm_config/links.txt', which 'arm.robot.yaml' compiles to" in capsys.readouterr().err
+
+
+def test_deps_without_a_folder_names_the_files_here(capsys: pytest.CaptureFixture[str]):
+    assert main(["deps", "arm.robot.yaml", "--for", "joints", "--for", "urdf"]) == 0
+    assert capsys.readouterr().out.startswith("arm.urdf arm.joints: \\\n")
+
+
+def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.MonkeyPatch):
+    waited: list[list[str]] = []
+
+    def wait(_: object, outputs: list[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+        waited.append([path.name for path in outputs])
+        if len(waited) > 1:
+            raise KeyboardInterrupt
+        outputs[0].unlink()
+        return (), (outputs[0],)
+
+    monkeypatch.setattr(watch, "_wait", wait)
+    assert main(["watch", "arm.robot.yaml", "-o", "out/", "--format", "folder"]) == INTERRUPTED
+    assert waited == [["joints.yaml", "links.txt"]] * 2
+    assert Path("out/arm_config/config/joints.yaml").exists()
+
+
+def test_templates_of_documents_that_are_xml_are_those_of_formats_of_xml():
+    own = [one for one in formats.FORMATS if isinstance(one, TemplateFormat)]
+    assert set(XML_ENDINGS) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}

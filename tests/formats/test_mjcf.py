@@ -1,6 +1,9 @@
 """MJCF: what it has of a robot, and what it says about the rest."""
 
+import shlex
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -8,6 +11,7 @@ import pytest
 from linkforge_compile import compile_file
 from linkforge_compile.core import Robot
 from linkforge_compile.formats import MJCF, Rendering
+from tests.conftest import ROOT
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import HEAD, compiled, document, reported
 
@@ -240,11 +244,25 @@ def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_
     (tmp_path / "text.stl").write_text("solid text\nendsolid text\n")
     robot = compiled_in(tmp_path, "links: {base: {visual: [{mesh: base.dae}, {mesh: text.stl}, {mesh: no.stl}]}}")
     assert [one.message for one in MJCF.limits(robot, {})] == [
-        "mesh 'base.dae' is left out of the MJCF: MuJoCo reads STL, OBJ and MSH",
-        "mesh 'text.stl' is left out of the MJCF: MuJoCo reads binary STL of up to 200,000 triangles",
+        "mesh 'base.dae' is left out of the MJCF: MuJoCo reads STL, OBJ and MSH; 'linkforge explain LF7404' has a "
+        "command that converts it",
+        "mesh 'text.stl' is left out of the MJCF: MuJoCo reads binary STL of up to 200,000 triangles; 'linkforge "
+        "explain LF7404' has a command that converts it",
         "mesh 'no.stl' is left out of the MJCF: the file is not found",
     ]
     assert mjcf_model(robot).ngeom == 0
+
+
+def test_the_command_of_the_manual_converts_a_mesh(tmp_path: Path):
+    trimesh = pytest.importorskip("trimesh")
+    page = (ROOT / "docs" / "diagnostics" / "LF7404.md").read_text()
+    command = next(line for line in page.splitlines() if line.startswith("python -c"))
+    (tmp_path / "base.dae").write_bytes(trimesh.creation.box((1, 2, 3)).export(file_type="dae"))
+    subprocess.run([sys.executable, *shlex.split(command)[1:]], cwd=tmp_path, check=True, timeout=60)
+    robot = compiled_in(tmp_path, "links: {base: {visual: {mesh: base.stl}}}")
+    assert list(MJCF.limits(robot, {})) == []
+    (tmp_path / "robot.mjcf").write_text(MJCF.render(robot, Rendering())[0].text)
+    assert mujoco.MjModel.from_xml_path(str(tmp_path / "robot.mjcf")).nmeshface == 12
 
 
 def test_parts_without_counterpart_are_reported_by_kind():

@@ -59,6 +59,7 @@ def elements(text: str, path: str, **options: str) -> list[dict[str, str]]:
         ),
         ("{velocity: {kv: 8}}", {"": "velocity", "ctrlrange": "-3 3", "kv": "8"}),
         ("[effort]", {"": "motor", "ctrlrange": "-5 5"}),
+        ("[torque]", {"": "motor", "ctrlrange": "-5 5"}),
     ],
 )
 def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, str]):
@@ -69,6 +70,31 @@ def test_a_command_interface_is_an_actuator(interface: str, expected: dict[str, 
     ]
     assert mjcf_model(compiled(robot)).nu == 2
     assert reported(robot) == []
+
+
+def test_what_most_joints_have_is_in_their_class():
+    names = ("one", "two", "three")
+    joint = "{type: continuous, parent: base, child: NAME, axis: z, limits: {effort: 5, velocity: 3}}"
+    robot = f"""
+links: {{base: , {", ".join(f"{name}: {{inertial: *unit}}" for name in names)}}}
+joints: {{{", ".join(f"{name}_joint: {joint.replace('NAME', name)}" for name in names)}}}
+ros2_control:
+  arm:
+    hardware_plugin: mock_components/GenericSystem
+    joints:
+      one_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      two_joint: {{command_interfaces: {{position: {{kp: 200, kv: 20}}}}}}
+      three_joint: {{command_interfaces: {{position: {{kp: 300}}}}}}
+"""
+    assert elements(robot, "default/default[@class='joint']/*") == [
+        {"": "joint", "actuatorfrcrange": "-5 5"},
+        {"": "position", "kp": "200", "kv": "20"},
+    ]
+    assert [one.get("class") for one in elements(robot, "actuator/*")] == ["joint", "joint", None]
+    model = mjcf_model(compiled(robot))
+    assert model.jnt_actfrcrange.tolist() == [[-5, 5]] * 3
+    assert model.actuator_gainprm[:, 0].tolist() == [200, 200, 300]
+    assert model.actuator_biasprm[:, 2].tolist() == [-20, -20, 0]
 
 
 def test_a_joint_has_one_actuator():
@@ -224,8 +250,8 @@ def test_sensors_measure_at_sites():
     robot = ARM + SENSORS
     assert elements(robot, "sensor/*") == [
         {"": "gyro", "name": "imu_gyro", "site": "imu", "noise": "0.25"},
-        {"": "accelerometer", "name": "imu_accelerometer", "site": "imu"},
-        {"": "framequat", "name": "imu_orientation", "objtype": "site", "objname": "imu"},
+        {"": "accelerometer", "name": "imu_accel", "site": "imu"},
+        {"": "framequat", "name": "imu_quat", "objtype": "site", "objname": "imu"},
         {"": "force", "name": "wrench_force", "site": "wrench"},
         {"": "torque", "name": "wrench_torque", "site": "wrench"},
     ]
@@ -233,9 +259,7 @@ def test_sensors_measure_at_sites():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     numpy.testing.assert_allclose(data.site("imu").xpos, [0, 0, 0.5], atol=1e-12)
-    numpy.testing.assert_allclose(
-        data.sensor("imu_orientation").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12
-    )
+    numpy.testing.assert_allclose(data.sensor("imu_quat").data, [math.sqrt(0.5), 0, 0, math.sqrt(0.5)], atol=1e-12)
 
 
 def test_a_camera_looks_where_gazebos_does():

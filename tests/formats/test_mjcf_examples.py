@@ -39,6 +39,17 @@ def test_the_quadruped_stands_on_the_ground():
     assert feet == {"world"} | {f"{end}_{side}_foot" for end in ("front", "rear") for side in ("left", "right")}
 
 
+def test_the_scene_of_the_docs_attaches_a_robot_with_its_keyframes(tmp_path: Path):
+    page = (ROOT / "docs" / "after-urdf.md").read_text()
+    scene = next(one for one in page.split("```xml\n") if "<attach" in one).partition("```")[0]
+    golden = (QUADRUPED / "quadruped_mujoco.mjcf").read_text()
+    (tmp_path / "arm.mjcf").write_text(golden.replace('"trunk"', '"base"'))
+    (tmp_path / "scene.xml").write_text(scene)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+    assert model.nq == 7 + 7 + 12
+    assert model.key("robot_standing").qpos[2] == 0.322
+
+
 UR5E = f"""
 linkforge: 1
 name: ur5e

@@ -28,13 +28,29 @@ SCHEMA = Draft7Validator(json.loads((Path(__file__).parent / "source_map.schema.
 
 
 @pytest.fixture(params=SPECS, ids=lambda path: path.name.removesuffix(".robot.yaml"))
-def robot(request: pytest.FixtureRequest) -> Robot:
-    return compiled(request.param)
+def spec(request: pytest.FixtureRequest) -> Path:
+    path: Path = request.param
+    return path
+
+
+@pytest.fixture
+def robot(spec: Path) -> Robot:
+    return compiled(spec)
+
+
+@pytest.fixture
+def urdf(spec: Path) -> Mapped:
+    return mapped_urdf(spec)
 
 
 @cache
 def compiled(spec: Path) -> Robot:
     return compile_file(spec).result()
+
+
+@cache
+def mapped_urdf(spec: Path) -> Mapped:
+    return render_urdf_with_map(compiled(spec))
 
 
 def written(source_map: SourceMap, line: int, column: int | None = None) -> Span:
@@ -43,8 +59,8 @@ def written(source_map: SourceMap, line: int, column: int | None = None) -> Span
     return place.span
 
 
-def test_a_map_changes_no_byte(robot: Robot):
-    assert render_urdf_with_map(robot).text == render_urdf(robot)
+def test_a_map_changes_no_byte(robot: Robot, urdf: Mapped):
+    assert urdf.text == render_urdf(robot)
     assert render_srdf_with_map(robot).text == render_srdf(robot)
     classic = render_urdf_with_map(robot, gazebo="classic", banner="two\n<robot>\nlines").text
     assert classic == render_urdf(robot, gazebo="classic", banner="two\n<robot>\nlines")
@@ -58,8 +74,8 @@ def test_a_robot_built_in_python_has_a_map_of_nothing():
     assert mapped.map.at(10_000) is None
 
 
-def test_every_line_of_an_element_is_mapped(robot: Robot):
-    for mapped in (render_urdf_with_map(robot), render_srdf_with_map(robot)):
+def test_every_line_of_an_element_is_mapped(robot: Robot, urdf: Mapped):
+    for mapped in (urdf, render_srdf_with_map(robot)):
         tags = [number for number, line in enumerate(mapped.text.split("\n"), start=1) if line and line[1] != "?"]
         assert [number for number in tags if mapped.map.at(number) is None] == []
 
@@ -76,10 +92,9 @@ KEY_PARTS = re.compile(r"\$\([^)]*\)|[^$]+")
 
 
 @pytest.mark.parametrize("tag", ["link", "joint"])
-def test_a_link_or_joint_leads_to_the_key_that_names_it(robot: Robot, tag: str):
-    mapped = render_urdf_with_map(robot)
-    for element in etree.fromstring(mapped.text.encode()).findall(tag):
-        place = written(mapped.map, element.sourceline)
+def test_a_link_or_joint_leads_to_the_key_that_names_it(urdf: Mapped, tag: str):
+    for element in etree.fromstring(urdf.text.encode()).findall(tag):
+        place = written(urdf.map, element.sourceline)
         if element.get("name") != "world":  # which a mount may have made
             assert names_written_at(place).fullmatch(element.get("name")), place
 
@@ -93,15 +108,14 @@ def some(elements: list[etree._Element]) -> list[etree._Element]:
     return elements[:: 1 + len(elements) // 10]
 
 
-def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot):
-    mapped = render_urdf_with_map(robot)
+def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot, urdf: Mapped):
     told = 0
-    for joint in some(etree.fromstring(mapped.text.encode()).findall("joint")):
+    for joint in some(etree.fromstring(urdf.text.encode()).findall("joint")):
         for part in joint.iterchildren(*KEYS):
             explanation = explain(robot, f"joints/{joint.get('name')}/{KEYS[part.tag]}")
             if explanation.is_written:
                 assert explanation.provenance
-                assert written(mapped.map, part.sourceline) == explanation.provenance.span, (
+                assert written(urdf.map, part.sourceline) == explanation.provenance.span, (
                     joint.get("name"),
                     part.tag,
                 )
@@ -109,17 +123,16 @@ def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot):
     assert told or len(robot.joints) == 0
 
 
-def test_an_attribute_leads_to_its_own_value(robot: Robot):
-    mapped = render_urdf_with_map(robot)
-    lines = mapped.text.split("\n")
-    for limit in some(etree.fromstring(mapped.text.encode()).findall("joint/limit")):
+def test_an_attribute_leads_to_its_own_value(robot: Robot, urdf: Mapped):
+    lines = urdf.text.split("\n")
+    for limit in some(etree.fromstring(urdf.text.encode()).findall("joint/limit")):
         for attribute in {"lower", "upper", "effort", "velocity"} & set(limit.attrib):
             column = lines[limit.sourceline - 1].index(f"{attribute}=") + 1
             joint = limit.getparent().get("name")
             explanation = explain(robot, f"joints/{joint}/limits/{attribute}")
             assert explanation.provenance
-            assert written(mapped.map, limit.sourceline, column) == explanation.provenance.span
-            assert mapped.map.at(limit.sourceline, column + 3).spans(Kind.USE) == explanation.provenance.spans(Kind.USE)
+            assert written(urdf.map, limit.sourceline, column) == explanation.provenance.span
+            assert urdf.map.at(limit.sourceline, column + 3).spans(Kind.USE) == explanation.provenance.spans(Kind.USE)
 
 
 SPEC = """\
@@ -286,17 +299,16 @@ def test_an_override_an_include_and_a_use_are_on_the_trail(tmp_path: Path):
     assert [how for step in whole["trails"][trail] for how in step] == ["included", "used"]
 
 
-def test_the_file_of_a_map_fits_its_schema_and_reads_back(robot: Robot):
-    mapped = render_urdf_with_map(robot)
-    text = map_text(*mapped, "robot.urdf", ROOT / "examples")
+def test_the_file_of_a_map_fits_its_schema_and_reads_back(urdf: Mapped):
+    text = map_text(*urdf, "robot.urdf", ROOT / "examples")
     SCHEMA.validate(json.loads(text))
-    assert text == map_text(*mapped, "robot.urdf", ROOT / "examples")
+    assert text == map_text(*urdf, "robot.urdf", ROOT / "examples")
     assert str(ROOT) not in text
     read = read_map(text)
-    lines = mapped.text.split("\n")
+    lines = urdf.text.split("\n")
     for number, line in enumerate(lines, start=1):
         for column in range(1, len(line) + 1, 7):
-            place, found = mapped.map.at(number, column), read.at(number, column)
+            place, found = urdf.map.at(number, column), read.at(number, column)
             assert (place is None) == (found is None)
             if place and found:
                 stretch, _ = found

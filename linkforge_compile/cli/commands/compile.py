@@ -53,8 +53,8 @@ examples:
   linkforge compile arm.robot.yaml --template docs/templates -o docs/     docs/joints.md, of docs/templates/joints.md.j2
 
 --template FOLDER writes NAME for each Jinja2 template NAME.j2 at the top of FOLDER, instead of URDF and SRDF. With
---format or -o FILE for one of these, or if FOLDER has no such template, URDF and SRDF are written, and templates in
-FOLDER/urdf/ and FOLDER/srdf/ replace linkforge's own. docs/templates.md describes the data of a template.
+--format or -o FILE for a format, or if FOLDER has no such template, the formats are written, and templates in a folder
+of FOLDER with the name of a format, FOLDER/urdf/, replace linkforge's own. docs/templates.md describes their data.
 """
 
 

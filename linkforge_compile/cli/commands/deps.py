@@ -14,7 +14,7 @@ from linkforge_compile.cli.options import (
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, report
-from linkforge_compile.cli.targets import add_output_option, default_format, name_of, targets_of
+from linkforge_compile.cli.targets import add_for_option, add_output_option, default_format, name_of, targets_of
 
 if TYPE_CHECKING:
     import argparse
@@ -25,12 +25,13 @@ FORMATS = ("make", "json")
 
 _EXAMPLES = """\
 It lists the spec, the files that it includes and uses, files of values, xacro files, and meshes from which an inertia
-is computed; and the templates and the version of linkforge itself. A rule of Make is for the URDF, unless -o names
-other files.
+is computed; and the templates and the version of linkforge itself. A rule of Make is for the URDF, unless -o or
+--for name other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/arm.urdf     build/arm.urdf: arm.robot.yaml ...
+  linkforge deps arm.robot.yaml -o build/ --for mjcf  build/arm.mjcf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml --format json         for other tools, also of a spec with errors
 
 In JSON, "files" are those of the robot, "unread" those that could not be read, and "linkforge" its own. For a spec with
@@ -44,6 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_and_values(parser)
     add_output_option(parser)
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (default), or JSON")
+    add_for_option(parser, "the rule is for the outputs of this format, once more for another one")
     add_spec_options(parser)
     add_report_options(parser)
 
@@ -60,15 +62,19 @@ def run(arguments: argparse.Namespace) -> int:
     elif not is_faulty:
         from linkforge_compile.cli.output import inputs_of, make_rules
 
-        write_to_stdout(make_rules(_outputs(spec, arguments.outputs, compilation), inputs_of(compilation.files)))
+        write_to_stdout(
+            make_rules(_outputs(spec, arguments.outputs, arguments.formats, compilation), inputs_of(compilation.files))
+        )
     return FAULTY_SPEC if is_faulty else OK
 
 
-def _outputs(spec: str, outputs: list[str], compilation: Compilation) -> tuple[Path, ...]:
+def _outputs(spec: str, outputs: list[str], chosen: list[str], compilation: Compilation) -> tuple[Path, ...]:
     """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
     from linkforge_compile.cli.build import targets_for
 
-    targets = targets_of(name_of(spec), outputs or [f"{name_of(spec)}{default_format().suffix}"])
+    targets = targets_of(
+        name_of(spec), outputs or ["./" if chosen else f"{name_of(spec)}{default_format().suffix}"], chosen
+    )
     targets.require_files("a rule of Make", "says what files are made from")
     assert compilation.robot is not None, "a spec without errors has a robot"
     needed, faults = targets_for(compilation.robot, targets)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.banner import BANNER
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.targets import format_by_suffix
 from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
     from linkforge_compile.source import Span
 
 _EXAMPLES = """\
-NAME is the name of a link, a joint, a sensor or another element in the file. The source map is FILE.map.json, which
+NAME is the name of a link, a joint, a sensor or another element in the file; in a file that is not XML, it is a word of
+a line. The source map is FILE.map.json, which
 `linkforge compile --source-map` writes beside the file.
 
 examples:
@@ -36,7 +38,7 @@ _LARGEST = 256 * 1024 * 1024  # bytes
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge where FILE:LINE[:COLUMN] | FILE NAME"
     parser.epilog = _EXAMPLES
-    parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a URDF or SRDF file")
+    parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a file that linkforge wrote")
     parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
     add_report_options(parser)
 
@@ -98,7 +100,8 @@ def _map_of(path: Path, document: str) -> MapFile:
     if not map_file.exists():
         banner = BANNER.search(document[:10_000])
         spec = banner["spec"] if banner else "SPEC.robot.yaml"
-        command = f"linkforge compile {spec} -o {path} --source-map"
+        output = f" -o {path}" if format_by_suffix(path.name) else ""  # else a file in the folder of a format
+        command = f"linkforge compile {spec}{output} --source-map"
         raise UsageError(f"there is no map '{map_file}'; `{command}`, with the same options as before, writes it")
     try:
         return read_map(_text_of(map_file))
@@ -114,15 +117,32 @@ def _changed(file: SourceFile, when: str) -> Diagnostic:
 
 def _named(path: Path, document: str, name: str) -> list[_Query]:
     """Return the elements with a name: those that declare it, or else those that refer to it."""
+    from linkforge_compile.source.characters import begins_xml
+
+    if not begins_xml(document):
+        return _lines_with(path, document, name)
     elements = list(_elements_of(path, document))
     found = [element for element in elements if element.name == name]
     declared = [element for element in found if element.is_declared]
     if not found:
-        from linkforge_compile.diagnostics.suggest import did_you_mean
-
-        names = [element.name for element in elements]
-        raise UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names)}")
+        raise _no_such_name(path, name, [element.name for element in elements])
     return [_Query(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
+
+
+def _lines_with(path: Path, document: str, name: str) -> list[_Query]:
+    """Return the lines of a file that is not XML in which a name is a whole word."""
+    whole_word = re.compile(rf"(?<![\w./-]){re.escape(name)}(?![\w./-])")
+    lines = enumerate(document.split("\n"), 1)
+    found = [_Query(number, 1, "") for number, line in lines if whole_word.search(line)]
+    if not found:
+        raise _no_such_name(path, name, re.findall(r"[\w./-]+", document))
+    return found
+
+
+def _no_such_name(path: Path, name: str, names: list[str]) -> UsageError:
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+
+    return UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names)}")
 
 
 class _Element(NamedTuple):

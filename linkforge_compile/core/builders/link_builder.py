@@ -105,11 +105,10 @@ class LinkBuilder(JointDraft):
             return material
         defined = self._builder.robot.materials.get(material)
         if defined is None:
-            raise RobotValidationError(
-                ValidationErrorCode.NOT_FOUND,
+            raise RobotValidationError.not_found(
                 f"Material '{material}' not found. Did you call builder.material('{material}', ...) first?",
-                target="Material",
-                value=material,
+                "Material",
+                material,
             )
         return defined
 

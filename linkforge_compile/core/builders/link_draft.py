@@ -338,7 +338,7 @@ class JointDraft(LinkDraft):
             return None
         if not systems:
             message = f"Joint '{joint.name}' requested ros2_control interfaces, but no global system exists."
-            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "Ros2Control")
+            raise RobotValidationError.empty(message, "Ros2Control")
         system = systems.get(self._control_system) if self._control_system else systems[0]
         if system is None:
             message = (

@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.controller import *  # noqa: F403
     from linkforge_compile.core.models.gazebo import *  # noqa: F403
     from linkforge_compile.core.models.geometry import *  # noqa: F403
     from linkforge_compile.core.models.graph import *  # noqa: F403
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.transmission import *  # noqa: F403
 
 _NAMES = {
+    "controller": "Controller",
     "gazebo": "GazeboElement GazeboPlugin",
     "geometry": "Box Capsule Color Cylinder Geometry GeometryType Material Mesh Sphere Transform Vector3",
     "graph": "KinematicGraph",

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Self
 
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     ZERO_TO_ONE,
@@ -53,11 +53,8 @@ class GazeboPlugin(Element):
     def _check(self) -> None:
         require_not_blank(self.name, "plugin name", "PluginName")
         if not self.filename.strip():
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                f"filename of plugin '{self.name}' cannot be empty or blank",
-                target="PluginFilename",
-                field=("filename",),
+            raise RobotValidationError.empty(
+                f"filename of plugin '{self.name}' cannot be empty or blank", "PluginFilename", None, "filename"
             )
 
 
@@ -93,20 +90,15 @@ class GazeboElement(Element):
         if self.reference is not None:
             require_not_blank(self.reference, "gazebo reference", "GazeboReference", ("reference",))
         if self.stop_cfm is not None and self.stop_cfm < 0:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
-                f"stop_cfm must be >= 0, found {self.stop_cfm}",
-                target="GazeboStopCFM",
-                value=str(self.stop_cfm),
-                field=("stop_cfm",),
+            raise RobotValidationError.invalid(
+                f"stop_cfm must be >= 0, found {self.stop_cfm}", "GazeboStopCFM", str(self.stop_cfm), "stop_cfm"
             )
         if self.stop_erp is not None and not 0 <= self.stop_erp <= 1:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
+            raise RobotValidationError.invalid(
                 f"stop_erp must be in [0.0, 1.0], found {self.stop_erp}",
-                target="GazeboStopERP",
-                value=str(self.stop_erp),
-                field=("stop_erp",),
+                "GazeboStopERP",
+                str(self.stop_erp),
+                "stop_erp",
             )
         require_finite(self, "stop_cfm")
 

@@ -310,4 +310,4 @@ class Material(Element):
     def _check(self) -> None:
         if self.color is None and self.texture is None:
             message = f"material '{self.name}' must have a color or a texture"
-            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "MaterialDefinition", self.name)
+            raise RobotValidationError.empty(message, "MaterialDefinition", self.name)

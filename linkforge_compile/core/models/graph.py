@@ -185,13 +185,7 @@ class KinematicGraph:
 
     def _require_link(self, end: str, name: str) -> None:
         if name not in self.link_names:
-            raise RobotValidationError(
-                ValidationErrorCode.NOT_FOUND,
-                f"{end} link '{name}' unknown",
-                target=f"{end}Link",
-                value=name,
-                field=(end.lower(),),
-            )
+            raise RobotValidationError.not_found(f"{end} link '{name}' unknown", f"{end}Link", name, end.lower())
 
     def has_cycle(self) -> bool:
         """Return whether some link is its own ancestor; two ways to one link (a diamond) are no cycle."""

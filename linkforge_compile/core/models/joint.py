@@ -1,7 +1,7 @@
 """Joints: how one link may move relative to another, its limits and its friction."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated, ClassVar
@@ -14,7 +14,7 @@ from linkforge_compile.core.constants import (
     EPSILON,
     UNKNOWN,
 )
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     Axis,
@@ -68,6 +68,13 @@ HAVE_NO_AXIS = (JointType.FIXED, JointType.FLOATING)
 HAVE_NO_LIMITS = (JointType.FIXED,)
 NEED_LIMITS = (JointType.REVOLUTE, JointType.PRISMATIC)
 
+AXES: Mapping[str, Vector3] = {
+    sign + name: Vector3(*(length if name == axis else 0.0 for axis in "xyz"))
+    for sign, length in (("", 1.0), ("-", -1.0))
+    for name in "xyz"
+}
+"""The axes that the language has words for."""
+
 
 @extras_last
 @dataclass(frozen=True)
@@ -114,12 +121,11 @@ class JointLimits(Element):
 
     def _check(self) -> None:
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
-            raise RobotValidationError(
-                ValidationErrorCode.OUT_OF_RANGE,
+            raise RobotValidationError.out_of_range(
                 f"lower limit must not be above upper, found {self.lower} and {self.upper}",
-                target="JointLimitRange",
-                value=(self.lower, self.upper),
-                field=("lower",),
+                "JointLimitRange",
+                (self.lower, self.upper),
+                "lower",
             )
         check_numbers(self)
 
@@ -240,7 +246,7 @@ class Joint(Element):
         require_name(self.parent, "parent link name", "ParentLink", ("parent",))
         require_name(self.child, "child link name", "ChildLink", ("child",))
         if self.parent == self.child:
-            raise self._invalid(
+            raise RobotValidationError.invalid(
                 f"parent and child link cannot be the same, found '{self.child}'", "JointTopology", self.child, "child"
             )
         self._check_parts_of_type()
@@ -250,26 +256,26 @@ class Joint(Element):
     def _check_parts_of_type(self) -> None:
         kind = f"{self.type}"
         if self.type in _MOVE_ALONG_AN_AXIS and self.axis is None:
-            raise self._invalid(f"axis required for joint type '{kind}'", "JointAxis", kind, "axis")
+            raise RobotValidationError.invalid(f"axis required for joint type '{kind}'", "JointAxis", kind, "axis")
         if self.type in HAVE_NO_AXIS and self.axis is not None:
-            raise self._invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
+            raise RobotValidationError.invalid(f"axis not allowed for joint type '{kind}'", "JointAxis", kind, "axis")
         if self.type in NEED_LIMITS and self.limits is None:
-            raise self._invalid(f"limits required for joint type '{kind}'", "JointLimits", kind, "limits")
+            raise RobotValidationError.invalid(
+                f"limits required for joint type '{kind}'", "JointLimits", kind, "limits"
+            )
         if self.type in HAVE_NO_LIMITS and self.limits is not None:
-            raise self._invalid(f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits")
+            raise RobotValidationError.invalid(
+                f"limits not allowed for joint type '{kind}'", "JointLimits", kind, "limits"
+            )
 
     def _check_axis(self, axis: Vector3) -> None:
         length = math.hypot(axis.x, axis.y, axis.z)
         if length < EPSILON:
-            raise self._invalid("joint axis cannot be a zero vector", "JointAxis", axis, "axis")
+            raise RobotValidationError.invalid("joint axis cannot be a zero vector", "JointAxis", axis, "axis")
         if abs(length - 1) > EPSILON:
-            raise self._invalid(
+            raise RobotValidationError.invalid(
                 f"joint axis must be a unit vector, found length {length}", "JointAxisNormalization", length, "axis"
             )
-
-    @staticmethod
-    def _invalid(message: str, target: str, value: object, at: str) -> RobotValidationError:
-        return RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, target=target, value=value, field=(at,))
 
     @property
     def degrees_of_freedom(self) -> int:

@@ -15,7 +15,7 @@ from linkforge_compile.core.constants import (
     GRAVITY_ENABLED,
     MIN_REASONABLE_INERTIA,
 )
-from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotPhysicsError, RobotValidationError
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     Child,
@@ -91,12 +91,8 @@ class Inertial(Element):
 
     def _check(self) -> None:
         if self.mass < 0:
-            raise RobotPhysicsError(
-                ValidationErrorCode.OUT_OF_RANGE,
-                f"mass must be at least 0 kg, found {self.mass}",
-                target="Mass",
-                value=self.mass,
-                field=("mass",),
+            raise RobotPhysicsError.out_of_range(
+                f"mass must be at least 0 kg, found {self.mass}", "Mass", self.mass, "mass"
             )
         check_numbers(self)
 
@@ -259,12 +255,11 @@ class Link(Sourced):  # noqa: PLW1641 its `__eq__` is for type checkers alone
 def _kinds(words: Sequence[str]) -> tuple[str, ...]:
     for word in words:
         if word not in KINDS:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
+            raise RobotValidationError.invalid(
                 f"shape_order has the words {' and '.join(map(repr, KINDS))}, found {word!r}",
-                target="ShapeOrder",
-                value=word,
-                field=("shape_order",),
+                "ShapeOrder",
+                word,
+                "shape_order",
             )
     return tuple(words)
 

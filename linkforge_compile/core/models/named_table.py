@@ -49,7 +49,7 @@ class KeySpec(NamedTuple):
     def missing_error(self, name: str) -> RobotValidationError:
         """Return the error for a name that no item has."""
         message = f"{self.kind[0].upper()}{self.kind[1:]} '{name}' not found"
-        return RobotValidationError(ValidationErrorCode.NOT_FOUND, message, self._target, name)
+        return RobotValidationError.not_found(message, self._target, name)
 
 
 PART: Final = KeySpec("part")

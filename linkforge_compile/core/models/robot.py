@@ -8,9 +8,9 @@ from itertools import combinations
 from typing import Any, Self
 
 from linkforge_compile.core.constants import SRDF_REASON_ADJACENT
-from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotGeneratorError, RobotValidationError
 from linkforge_compile.core.models.gazebo import GazeboElement, content_key
-from linkforge_compile.core.models.geometry import IDENTITY, Material, Transform, Vector3
+from linkforge_compile.core.models.geometry import IDENTITY, Transform, Vector3
 from linkforge_compile.core.models.graph import refuse_cycles, tree_root
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
 from linkforge_compile.core.models.link import Link
@@ -99,7 +99,7 @@ class Robot(RobotParts):
 
     def _require(self, kind: str, name: str, what: str, target: str, *field: str) -> None:
         if self._list_of(kind).get(name) is None:
-            raise RobotValidationError(ValidationErrorCode.NOT_FOUND, f"{what} not found", target, name, field=field)
+            raise RobotValidationError.not_found(f"{what} not found", target, name, *field)
 
     def _require_joints(self, names: Iterable[str]) -> None:
         for name in names:
@@ -145,9 +145,7 @@ class Robot(RobotParts):
         for subgroup in group.subgroups:
             if subgroup not in self.semantic.groups:
                 message = f"Subgroup '{subgroup}' not found"
-                raise RobotValidationError(
-                    ValidationErrorCode.NOT_FOUND, message, target="Subgroup", value=subgroup, field=("subgroups",)
-                )
+                raise RobotValidationError.not_found(message, "Subgroup", subgroup, "subgroups")
         return self._add_entries(groups=[group])
 
     def disable_collisions(self, link1: str, link2: str, reason: str = SRDF_REASON_ADJACENT) -> Self:
@@ -209,7 +207,6 @@ class Robot(RobotParts):
         """
         if at_link is not None:
             self._require("links", at_link, f"Attachment link '{at_link}'", "Attach", "parent")
-        materials = prefixed_materials(component, prefix)
         parts = prefixed_parts(component, prefix)
         # Links of one name are reported as such, and not as the cycle that they make.
         self._select_new(links=parts["links"])
@@ -219,20 +216,14 @@ class Robot(RobotParts):
             # The connecting joint comes from a link that is none of theirs, so it makes no cycle.
             root = tree_root(parts["links"], parts["joints"])
             connecting = Joint(joint_name or "", joint_type, at_link, root, origin or IDENTITY, axis, limits)
-            if joint:
-                names = ("name", "type", "parent", "child", "origin", "axis", "limits")
-                connecting = joint.with_fields(**{name: getattr(connecting, name) for name in names})
-            parts["joints"].append(connecting)
-        parts["extra_elements"] = list(component.extra_elements)
-        self._add_component(component, prefix, parts, materials)
+            parts["joints"].append(_with_rest_of(joint, connecting) if joint else connecting)
+        self._add_component(component, prefix, parts)
         return self
 
-    def _add_component(
-        self, component: Robot, prefix: str, parts: dict[str, list[Any]], materials: dict[str, Material]
-    ) -> None:
+    def _add_component(self, component: Robot, prefix: str, parts: dict[str, list[Any]]) -> None:
         """Add parts, materials, raw XML and semantic entries of a component, all of them or none."""
-        new_materials = select_new_materials(materials, self.materials)
-        new_parts = self._select_new(**parts)
+        new_materials = select_new_materials(prefixed_materials(component, prefix), self.materials)
+        new_parts = self._select_new(**parts, extra_elements=component.extra_elements)
         own_attributes = dict(self.extra_attributes)
         extra_attributes = {**own_attributes, **dict(component.extra_attributes), **own_attributes}
         update_materials = self.materials.update
@@ -280,6 +271,7 @@ class Robot(RobotParts):
         robot.transmissions = sorted((part.normalized() for part in robot.transmissions), key=NAME)
         robot.ros2_controls = sorted((part.normalized() for part in robot.ros2_controls), key=NAME)
         robot.gazebo_elements = sorted(robot.gazebo_elements, key=content_key)
+        robot.controllers = sorted(robot.controllers, key=NAME)
         if robot.has_semantic:
             robot.semantic = robot.semantic.normalized()
         return robot
@@ -318,3 +310,9 @@ class Robot(RobotParts):
         errors = [found.message for found in check(self, UnresolvedNames()) if found.severity is Severity.ERROR]
         if errors:
             raise RobotGeneratorError("\n".join(errors))
+
+
+def _with_rest_of(joint: Joint, connecting: Joint) -> Joint:
+    """Return the connecting joint with the fields of another one that `merge` has no arguments for."""
+    names = ("name", "type", "parent", "child", "origin", "axis", "limits")
+    return joint.with_fields(**{name: getattr(connecting, name) for name in names})

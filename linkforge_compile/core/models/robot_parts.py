@@ -12,6 +12,7 @@ from typing import Any, overload
 
 from linkforge_compile.core.constants import IR_VERSION
 from linkforge_compile.core.exceptions import RobotModelError, RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.geometry import Material
 from linkforge_compile.core.models.graph import KinematicGraph, child_joints, parent_joints, single_root
@@ -89,8 +90,8 @@ class RobotParts(Sourced):
     """The parts of a robot, each kind in the order in which they were added.
 
     The collections are tuples with look-up by name (see NamedTable), and take any iterable. Two links or two joints of
-    one name are refused, by assignment too. Sensors, transmissions and ros2_controls of one name can be assigned, so
-    that a faulty robot can be read and checked; adding and merging refuse them.
+    one name are refused, by assignment too. Sensors, transmissions, ros2_controls and controllers of one name can be
+    assigned, so that a faulty robot can be read and checked; adding and merging refuse them.
     """
 
     name: str
@@ -110,6 +111,7 @@ class RobotParts(Sourced):
     extra_elements: TableField[str] = TableField(KeySpec("extra element", itself, OnDuplicate.KEEP))
     _: KW_ONLY
     extra_attributes: Sequence[tuple[str, str]] | Mapping[str, str] = ()
+    controllers: TableField[Controller] = TableField(KeySpec("controller"))
     version_stated: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -192,6 +194,7 @@ class RobotParts(Sourced):
         transmissions: Iterable[Transmission] = (),
         ros2_controls: Iterable[Ros2Control] = (),
         gazebo_elements: Iterable[GazeboElement] = (),
+        controllers: Iterable[Controller] = (),
     ) -> None:
         """Add parts of several kinds, all of them or none; the parts that they refer to need not exist.
 
@@ -205,6 +208,7 @@ class RobotParts(Sourced):
                 transmissions=transmissions,
                 ros2_controls=ros2_controls,
                 gazebo_elements=gazebo_elements,
+                controllers=controllers,
             )
         )
 
@@ -313,7 +317,7 @@ class RobotParts(Sourced):
         return "\n".join(lines)
 
 
-_KINDS = ("links", "joints", "sensors", "transmissions", "ros2_controls", "gazebo_elements")
+_KINDS = ("links", "joints", "sensors", "transmissions", "ros2_controls", "gazebo_elements", "controllers")
 
 
 def prefixed_parts(robot: RobotParts, prefix: str) -> dict[str, list[Any]]:  # Any: each kind has a class of its own

@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import Annotated, ClassVar, NoReturn, Self
 
 from linkforge_compile.core.constants import CONTROL_TYPE_ACTUATOR, CONTROL_TYPE_SENSOR, CONTROL_TYPE_SYSTEM
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import Children, Choice, Name, Parameters, Reference, Text, require_choice
 from linkforge_compile.core.naming import require_name, require_unique_names
 from linkforge_compile.core.part import Element, FrozenMap, Inside, attribute_pairs, dump_like, extras_last
@@ -144,11 +144,10 @@ class Ros2ControlJoint(_CommandedComponent):
     def _check(self) -> None:
         super()._check()
         if not self.command_interfaces and not self.state_interfaces:
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
+            raise RobotValidationError.empty(
                 f"ros2_control joint '{self.name}' must have at least one command or state interface",
-                target="Ros2ControlInterfaces",
-                value=self.name,
+                "Ros2ControlInterfaces",
+                self.name,
             )
 
 
@@ -218,12 +217,8 @@ class Ros2Control(Element):
         require_name(self.name, "ros2_control name", "Ros2ControlName")
         require_choice(self.type, Ros2ControlType, "ros2_control type", "Ros2ControlType", "type")
         if not self.hardware_plugin:
-            raise RobotValidationError(
-                ValidationErrorCode.VALUE_EMPTY,
-                "hardware_plugin cannot be empty",
-                target="HardwarePlugin",
-                value=self.hardware_plugin,
-                field=("hardware_plugin",),
+            raise RobotValidationError.empty(
+                "hardware_plugin cannot be empty", "HardwarePlugin", self.hardware_plugin, "hardware_plugin"
             )
         owner = f"ros2_control '{self.name}'"
         require_unique_names(self.joints, owner, "Ros2ControlJoints", "joints")
@@ -235,7 +230,7 @@ class Ros2Control(Element):
         if self.type == CONTROL_TYPE_SENSOR:
             for joint in self.joints:
                 if joint.command_interfaces:
-                    raise _invalid(
+                    raise RobotValidationError.invalid(
                         f"a ros2_control sensor cannot have command interfaces, found them in joint '{joint.name}'",
                         "Ros2ControlMode",
                         self.type,
@@ -244,7 +239,7 @@ class Ros2Control(Element):
                         "command_interfaces",
                     )
         if self.type == CONTROL_TYPE_ACTUATOR and len(self.joints) != 1:
-            raise _invalid(
+            raise RobotValidationError.invalid(
                 f"a ros2_control actuator must have exactly one joint, found {len(self.joints)}",
                 "Ros2ControlJoints",
                 len(self.joints),
@@ -259,9 +254,3 @@ class Ros2Control(Element):
             sensors=tuple(sensor.normalized() for sensor in sorted(self.sensors, key=by_name)),
             gpios=tuple(gpio.normalized() for gpio in sorted(self.gpios, key=by_name)),
         )
-
-
-def _invalid(message: str, target: str, value: object, *field_path: str) -> RobotValidationError:
-    return RobotValidationError(
-        ValidationErrorCode.INVALID_VALUE, message, target=target, value=value, field=field_path
-    )

@@ -6,7 +6,7 @@ from enum import StrEnum
 from typing import Annotated
 
 from linkforge_compile.core import constants as default
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import (
     ABOVE_ZERO,
     UP_TO_HALF_A_TURN,
@@ -132,7 +132,7 @@ class CameraInfo(Element):
     def _check(self) -> None:
         check_numbers(self)
         if self.far_clip <= self.near_clip:
-            raise _out_of_range(
+            raise RobotValidationError.out_of_range(
                 f"far_clip must be greater than near_clip {self.near_clip} [m], found {self.far_clip}",
                 "FarClip",
                 self.far_clip,
@@ -194,7 +194,7 @@ class LidarInfo(Element):
     def _check(self) -> None:
         check_numbers(self)
         if self.range_max <= self.range_min:
-            raise _out_of_range(
+            raise RobotValidationError.out_of_range(
                 f"range_max must be greater than range_min {self.range_min} [m], found {self.range_max}",
                 "LidarRangeMax",
                 self.range_max,
@@ -208,7 +208,7 @@ class LidarInfo(Element):
         smallest: float = getattr(self, f"{direction}_min_angle")
         largest: float = getattr(self, f"{direction}_max_angle")
         if smallest >= largest:
-            raise _out_of_range(
+            raise RobotValidationError.out_of_range(
                 f"{direction}_min_angle must be less than {direction}_max_angle, found {smallest} and {largest}",
                 target,
                 (smallest, largest),
@@ -330,14 +330,9 @@ class Sensor(Element):
         check_numbers(self)
         info = REQUIRED_INFO.get(self.type)
         if info and getattr(self, info) is None:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
+            raise RobotValidationError.invalid(
                 f"sensor '{self.name}' of type {self.type} requires {info}",
-                target="SensorInfo",
-                value=self.name,
-                field=(info.removesuffix("_info"),),
+                "SensorInfo",
+                self.name,
+                info.removesuffix("_info"),
             )
-
-
-def _out_of_range(message: str, target: str, value: object, at: str) -> RobotValidationError:
-    return RobotValidationError(ValidationErrorCode.OUT_OF_RANGE, message, target=target, value=value, field=(at,))

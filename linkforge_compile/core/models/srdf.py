@@ -5,18 +5,19 @@ group or link, and RobotMathError for NaN and infinity.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from numbers import Real
 from operator import attrgetter
 from typing import Annotated, Any, Self
 
 from linkforge_compile.core.constants import SRDF_VJOIN_FIXED, SRDF_VJOIN_FLOATING, SRDF_VJOIN_PLANAR
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     Children,
     Choice,
+    Data,
     Name,
     Number,
     Reference,
@@ -78,7 +79,10 @@ class Chain(Element):
 @extras_last
 @dataclass(frozen=True)
 class PlanningGroup(Element):
-    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups."""
+    """Joints that are planned together: `<group name>`; given by links, joints, chains or other groups.
+
+    `kinematics` are the parameters of its solver in MoveIt, such as `kinematics_solver`; they are in no SRDF.
+    """
 
     TAG = "group"
     NAMES_INSIDE_TAKE_PREFIX = True
@@ -88,12 +92,13 @@ class PlanningGroup(Element):
     joints: Annotated[Sequence[str], Reference("joint", xml="joint/@name")] = ()
     chains: Annotated[Sequence[Chain], Children()] = ()
     subgroups: Annotated[Sequence[str], Reference("group", xml="group/@name")] = ()
+    kinematics: Annotated[Mapping[str, Any], Data(xml="")] = field(default=FrozenMap(), kw_only=True)
 
     def _check(self) -> None:
         require_not_blank(self.name, "planning group name", "PlanningGroupName")
         if not (self.links or self.joints or self.chains or self.subgroups):
             message = f"planning group '{self.name}' must have at least one link, joint, chain or subgroup"
-            raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "PlanningGroup")
+            raise RobotValidationError.empty(message, "PlanningGroup")
 
 
 def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tuple[Chain, ...]:
@@ -107,7 +112,7 @@ def chain_between(group: str, base_link: str | None, tip_link: str | None) -> tu
         return (Chain(base_link, tip_link),)
     if base_link or tip_link:
         message, given = f"base_link and tip_link of group '{group}' must be given together", base_link or tip_link
-        raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "PlanningGroup", given, field=("chain",))
+        raise RobotValidationError.invalid(message, "PlanningGroup", given, "chain")
     return ()
 
 
@@ -196,7 +201,7 @@ class JointProperty(Element):
         for name in ("joint_name", "property_name", "value"):
             if not getattr(self, name).strip():
                 message = f"{name} of a joint property cannot be empty or blank"
-                raise RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, "JointProperty", field=(name,))
+                raise RobotValidationError.empty(message, "JointProperty", None, name)
 
 
 @extras_last
@@ -220,7 +225,7 @@ class CollisionPair(Element):
         require_not_blank(self.link2, "link2 of a collision pair", "CollisionPair", ("link2",))
         if self.link1 == self.link2:
             message = f"a collision pair needs two different links, found '{self.link1}' twice"
-            raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "CollisionPair", field=("link2",))
+            raise RobotValidationError.invalid(message, "CollisionPair", None, "link2")
 
     @property
     def key(self) -> tuple[str, str]:
@@ -246,7 +251,7 @@ class SrdfSphere(Element):
     def _check(self) -> None:
         if self.radius < 0:
             message = f"sphere radius must be at least 0 m, found {self.radius}"
-            raise RobotValidationError(ValidationErrorCode.INVALID_VALUE, message, "SrdfSphere", field=("radius",))
+            raise RobotValidationError.invalid(message, "SrdfSphere", None, "radius")
         for index, name in enumerate(("center_x", "center_y", "center_z")):
             if not is_finite(getattr(self, name)):
                 raise not_finite(getattr(self, name), name, f"SrdfSphere.{name}", ("center", index))

@@ -7,7 +7,7 @@ from operator import attrgetter
 from typing import Annotated, ClassVar, Self
 
 from linkforge_compile.core.constants import EPSILON, HW_IF_POSITION
-from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
+from linkforge_compile.core.exceptions import RobotValidationError
 from linkforge_compile.core.fields import (
     BEYOND_EPSILON,
     Children,
@@ -60,19 +60,18 @@ class _TransmissionEnd(Element, Stating):
     def _check(self) -> None:
         require_name(self.name, f"{self.what} name", self.name_target)
         if not self.hardware_interfaces:
-            raise _empty(
+            raise RobotValidationError.empty(
                 f"{self.what} '{self.name}' must have at least one interface",
                 "HardwareInterfaces",
                 self.name,
                 "hardware_interfaces",
             )
         if self.mechanical_reduction is not None and abs(self.mechanical_reduction) < EPSILON:
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
+            raise RobotValidationError.invalid(
                 f"mechanical_reduction of {self.what} '{self.name}' cannot be 0",
-                target="MechanicalReduction",
-                value=self.mechanical_reduction,
-                field=("mechanical_reduction",),
+                "MechanicalReduction",
+                self.mechanical_reduction,
+                "mechanical_reduction",
             )
         require_finite(self, "mechanical_reduction", "offset")
 
@@ -134,12 +133,14 @@ class Transmission(Element):
     def _check(self) -> None:
         require_name(self.name, "transmission name", "TransmissionName")
         if not self.type:
-            raise _empty("transmission type cannot be empty", "TransmissionType", self.type, "type")
+            raise RobotValidationError.empty("transmission type cannot be empty", "TransmissionType", self.type, "type")
         require_valid_characters(self.name, "transmission name", "TransmissionName")
         if not self.joints:
-            raise _empty("transmission must have at least one joint", "TransmissionJoints", self.name, "joints")
+            raise RobotValidationError.empty(
+                "transmission must have at least one joint", "TransmissionJoints", self.name, "joints"
+            )
         if not self.actuators:
-            raise _empty(
+            raise RobotValidationError.empty(
                 "transmission must have at least one actuator", "TransmissionActuators", self.name, "actuators"
             )
         self._check_count()
@@ -149,12 +150,12 @@ class Transmission(Element):
     def _check_count(self) -> None:
         count = JOINTS_AND_ACTUATORS.get(self.type)
         if count and (len(self.joints), len(self.actuators)) != (count, count):
-            raise RobotValidationError(
-                ValidationErrorCode.INVALID_VALUE,
+            raise RobotValidationError.invalid(
                 f"{self.type} must have exactly {count} joint{'s' * (count > 1)} and {count} "
                 f"actuator{'s' * (count > 1)}, found {len(self.joints)} and {len(self.actuators)}",
-                target="TransmissionComponents",
-                field=("actuators" if len(self.joints) == count else "joints",),
+                "TransmissionComponents",
+                None,
+                "actuators" if len(self.joints) == count else "joints",
             )
 
     def normalized(self) -> Self:
@@ -218,7 +219,3 @@ class Transmission(Element):
                 for joint, actuator in pairs
             ),
         )
-
-
-def _empty(message: str, target: str, value: str, at: str) -> RobotValidationError:
-    return RobotValidationError(ValidationErrorCode.VALUE_EMPTY, message, target=target, value=value, field=(at,))

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
+from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
 from linkforge_compile.formats.mjcf.joints import SINGLE, is_locked, symmetric
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+
+_TAGS = {"position": "position", "velocity": "velocity", "effort": "motor", "torque": "motor", "force": "motor"}
+INTERFACES = tuple(_TAGS)
+"""The command interfaces that MuJoCo has actuators for."""
+
+GAINS: Mapping[str, Sequence[str]] = {"position": ("kp", "kv"), "velocity": ("kv",)}
+"""The parameters of interfaces that are gains of their actuators, which need the first."""
 
 Range = tuple[float, float]
 
@@ -35,7 +43,7 @@ def drives(robot: Robot) -> Iterator[Drive]:
     seen: set[str] = set()
     for hardware in (joint for system in robot.ros2_controls for joint in system.joints):
         interfaces = [Interface.of(name) for name in hardware.command_interfaces]
-        known = next((one for one in interfaces if str(one) in _MAKERS), None)
+        known = next((one for one in interfaces if str(one) in INTERFACES), None)
         if known is None or hardware.name in seen or not robot.has_joint(hardware.name):
             continue
         joint = robot.joints[hardware.name]
@@ -44,50 +52,40 @@ def drives(robot: Robot) -> Iterator[Drive]:
             yield Drive(joint, hardware, known, tuple(one for one in interfaces if one is not known))
 
 
-def actuator_element(drive: Drive) -> Xml:
+def actuator_element(drive: Drive, joint_class: JointClass) -> Xml:
     """Return the actuator of a joint, with the range of its command; that of its force is the joint's."""
-    return _MAKERS[str(drive.interface)](drive)
-
-
-def _position(drive: Drive) -> Xml:
-    limits = drive.joint.limits
-    reach = None
-    if drive.joint.type != JointType.CONTINUOUS and limits and not is_locked(limits):
-        reach = _both(limits.lower, limits.upper)
-    return _element("position", drive, reach, kp=_gain(drive, "kp"), kv=_gain(drive, "kv"))
-
-
-def _velocity(drive: Drive) -> Xml:
-    limits = drive.joint.limits
-    return _element("velocity", drive, symmetric(limits.velocity) if limits else None, kv=_gain(drive, "kv"))
-
-
-def _effort(drive: Drive) -> Xml:
-    limits = drive.joint.limits
-    return _element("motor", drive, symmetric(limits.effort) if limits else None)
-
-
-_MAKERS: Mapping[str, Callable[[Drive], Xml]] = {"position": _position, "velocity": _velocity, "effort": _effort}
-
-INTERFACES = tuple(_MAKERS)
-"""The command interfaces that MuJoCo has actuators for."""
-
-GAINS = {"position": "kp", "velocity": "kv"}
-"""The parameter that is the gain of an actuator."""
-
-
-def _element(tag: str, drive: Drive, reach: Range | None, **gains: float | None) -> Xml:
-    parameters = drive.interface.parameters
-    stated = _both(number_of(parameters.get("min")), number_of(parameters.get("max")))
-    source = drive.interface.source or drive.hardware.source
+    tag, gains, source = actuator_settings(drive)
     name = drive.joint.name
-    return leaf_at(tag, source, name=name, joint=name, ctrlrange=stated or reach, **gains)
+    values = joint_class.attributes(tag, gains)
+    return leaf_at(tag, source, name=name, joint=name, ctrlrange=_command_range(drive), **values)
+
+
+def actuator_settings(drive: Drive) -> Settings:
+    """Return the gains of the actuator of a joint."""
+    interface = str(drive.interface)
+    values: Values = {name: _gain(drive, name) for name in GAINS.get(interface, ())}
+    return Settings(_TAGS[interface], values, drive.interface.source or drive.hardware.source)
+
+
+def _command_range(drive: Drive) -> Range | None:
+    """Return the range of the commands, which the interface states, or that of the joint."""
+    parameters, limits = drive.interface.parameters, drive.joint.limits
+    stated = _both(number_of(parameters.get("min")), number_of(parameters.get("max")))
+    if stated or limits is None:
+        return stated
+    match _TAGS[str(drive.interface)]:
+        case "velocity":
+            return symmetric(limits.velocity)
+        case "motor":
+            return symmetric(limits.effort)
+    has_range = drive.joint.type != JointType.CONTINUOUS and not is_locked(limits)
+    return _both(limits.lower, limits.upper) if has_range else None
 
 
 def has_gain(drive: Drive) -> bool:
     """Whether an actuator that needs a gain has one; MuJoCo's default is 1, too weak for most robots."""
-    needed = GAINS.get(str(drive.interface))
-    return needed is None or _gain(drive, needed) is not None
+    gains = GAINS.get(str(drive.interface))
+    return not gains or _gain(drive, gains[0]) is not None
 
 
 def _gain(drive: Drive, name: str) -> float | None:

@@ -12,6 +12,7 @@ from linkforge_compile.core.physics import rotated
 from linkforge_compile.formats.element import attributes_at, leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree, Node
 from linkforge_compile.formats.mjcf.contacts import sliding_frictions
+from linkforge_compile.formats.mjcf.joint_class import JointClass
 from linkforge_compile.formats.mjcf.joints import free_joint_name, joint_elements
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.poses import NO_OFFSET, NO_TURN, pose
@@ -32,7 +33,9 @@ MeshNames: TypeAlias = Mapping[Mesh, str]
 """The names of the meshes that MuJoCo can read."""
 
 
-def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free: bool) -> Iterator[View]:
+def body_views(
+    robot: Robot, tree: KinematicTree, meshes: MeshNames, joint_class: JointClass, *, is_free: bool
+) -> Iterator[View]:
     """Yield the bodies in the order of the tree, each with its own parts and the number of bodies that end with it."""
     massless = {link.name for link in massless_movers(robot, tree, is_free=is_free)}
     nodes = [node for node in tree.nodes if node.link.name != WORLD]
@@ -45,16 +48,16 @@ def body_views(robot: Robot, tree: KinematicTree, meshes: MeshNames, *, is_free:
         yield View(
             attributes=attributes_at(link.source, name=link.name, **placed, gravcomp=gravcomp),
             inertial=inertial_element(link, is_massless=link.name in massless),
-            joints=_joints(node, is_free=is_free),
+            joints=_joints(node, joint_class, is_free=is_free),
             shapes=shape_elements(link, meshes, frictions.get(link.name)),
             sensors=elements_in_body(robot, link.name),
             ends=node.depth + 1 - next_depth,
         )
 
 
-def _joints(node: Node, *, is_free: bool) -> Sequence[Xml]:
+def _joints(node: Node, joint_class: JointClass, *, is_free: bool) -> Sequence[Xml]:
     if node.joint:
-        return joint_elements(node.joint)
+        return joint_elements(node.joint, joint_class)
     return [leaf_at("freejoint", node.link.source, name=free_joint_name(node.link.name))] if is_free else []
 
 

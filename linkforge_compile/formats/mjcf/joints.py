@@ -9,6 +9,7 @@ from linkforge_compile.core.models.geometry import IDENTITY, Vector3
 from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -20,14 +21,25 @@ SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 _AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
 
 
-def joint_elements(joint: Joint) -> tuple[Xml, ...]:
+def joint_elements(joint: Joint, joint_class: JointClass) -> tuple[Xml, ...]:
     """Return the joints of MuJoCo that let a body move as a joint does: none, one or several."""
     maker = _MAKERS.get(joint.type)
-    return maker(joint) if maker else ()
+    return maker(joint, joint_class) if maker else ()
 
 
-def _single(joint: Joint) -> tuple[Xml, ...]:
+def joint_settings(joint: Joint) -> Settings:
+    """Return the dynamics of a joint of one axis."""
     limits, dynamics = joint.limits, joint.dynamics
+    values: Values = {
+        "damping": (dynamics.damping or None) if dynamics else None,
+        "frictionloss": (dynamics.friction or None) if dynamics else None,
+        "actuatorfrcrange": symmetric(limits.effort) if limits else None,
+    }
+    return Settings("joint", values, (dynamics or limits or joint).source or joint.source)
+
+
+def _single(joint: Joint, joint_class: JointClass) -> tuple[Xml, ...]:
+    limits = joint.limits
     has_range = joint.type != JointType.CONTINUOUS and limits is not None and not is_locked(limits)
     return (
         leaf_at(
@@ -37,9 +49,7 @@ def _single(joint: Joint) -> tuple[Xml, ...]:
             type="slide" if joint.type == JointType.PRISMATIC else None,
             axis=joint.axis,
             range=range_of(limits) if limits and has_range else None,
-            damping=(dynamics.damping or None) if dynamics else None,
-            frictionloss=(dynamics.friction or None) if dynamics else None,
-            actuatorfrcrange=symmetric(limits.effort) if limits else None,
+            **joint_class.attributes("joint", joint_settings(joint).values),
         ),
     )
 
@@ -60,7 +70,7 @@ def is_locked(limits: JointLimits) -> bool:
     return lower == upper
 
 
-def _floating(joint: Joint) -> tuple[Xml, ...]:
+def _floating(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     """Return a free joint, or three slides and a ball, which are the same elsewhere."""
     if is_free_joint(joint):
         return (leaf_at("freejoint", joint.source, name=joint.name),)
@@ -69,7 +79,7 @@ def _floating(joint: Joint) -> tuple[Xml, ...]:
     return (*(_part(joint, name, "slide", axis) for name, axis in axes), _part(joint, ball, "ball"))
 
 
-def _planar(joint: Joint) -> tuple[Xml, ...]:
+def _planar(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     """Return two slides in the plane and a hinge about its normal."""
     normal = joint.axis or _AXES["z"]
     first, second = _axes_of_plane(normal)
@@ -117,7 +127,7 @@ def free_joint_name(base: str) -> str:
     return f"{base}_free"
 
 
-_MAKERS: Mapping[str, Callable[[Joint], tuple[Xml, ...]]] = {
+_MAKERS: Mapping[str, Callable[[Joint, JointClass], tuple[Xml, ...]]] = {
     JointType.REVOLUTE: _single,
     JointType.CONTINUOUS: _single,
     JointType.PRISMATIC: _single,

@@ -87,7 +87,7 @@ def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
             others = " and ".join(f"'{other}'" for other in drive.others)
             yield ONE_ACTUATOR.at(where, "command_interfaces", joint=name, interface=interface, others=others)
         if not has_gain(drive):
-            yield NO_GAIN.at(where, "command_interfaces", joint=name, interface=interface, gain=GAINS[interface])
+            yield NO_GAIN.at(where, "command_interfaces", joint=name, interface=interface, gain=GAINS[interface][0])
 
 
 def check_lost_parts(robot: Robot) -> Iterator[Diagnostic]:

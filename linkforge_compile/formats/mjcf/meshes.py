@@ -23,6 +23,8 @@ _STL_HEADER, _STL_TRIANGLE = 84, 50
 
 _MAX_TRIANGLES = 200_000
 
+_CONVERT = "'linkforge explain LF7404' has a command that converts it"
+
 
 class MeshFile(NamedTuple):
     """A mesh with its file, None for one that is not found, and why MuJoCo cannot read it, None if it can."""
@@ -52,13 +54,13 @@ def mesh_files(robot: Robot) -> Iterator[MeshFile]:
 def _fault(mesh: Mesh, path: Path | None) -> str | None:
     ending = Path(mesh.resource).suffix.lower()
     if ending not in _ENDINGS:
-        return "MuJoCo reads STL, OBJ and MSH"
+        return f"MuJoCo reads STL, OBJ and MSH; {_CONVERT}"
     if path is None:
         return "the file is not found"
     # The size alone shows a binary STL; no file of a stranger's spec is opened.
     triangles, rest = divmod(path.stat().st_size - _STL_HEADER, _STL_TRIANGLE)
     if ending == ".stl" and (rest or not 0 < triangles <= _MAX_TRIANGLES):
-        return f"MuJoCo reads binary STL of up to {_MAX_TRIANGLES:,} triangles"
+        return f"MuJoCo reads binary STL of up to {_MAX_TRIANGLES:,} triangles; {_CONVERT}"
     return None
 
 

@@ -109,13 +109,14 @@ def sensor_elements(robot: Robot) -> Iterator[Xml]:
 
 
 def _imu(sensor: Sensor) -> Sequence[Xml]:
+    """Return the sensors of an IMU, with the names that mujoco_ros2_control looks for."""
     info, source, name = sensor.imu_info, sensor.source, sensor.name
     turning = _stddev(info.angular_velocity_noise) if info else None
     pushing = _stddev(info.linear_acceleration_noise) if info else None
     return (
         leaf_at("gyro", source, name=f"{name}_gyro", site=name, noise=turning),
-        leaf_at("accelerometer", source, name=f"{name}_accelerometer", site=name, noise=pushing),
-        leaf_at("framequat", source, name=f"{name}_orientation", objtype="site", objname=name),
+        leaf_at("accelerometer", source, name=f"{name}_accel", site=name, noise=pushing),
+        leaf_at("framequat", source, name=f"{name}_quat", objtype="site", objname=name),
     )
 
 

@@ -184,7 +184,7 @@ def test_warnings_of_xacro_are_reported(vendor, tmp_path):
     ],
 )
 def test_a_file_without_bounds_comes_to_an_end(text, reason, vendor, tmp_path, monkeypatch):
-    monkeypatch.setattr("linkforge_compile.importers.xacro.run.MAX_SECONDS", 3)
+    monkeypatch.setattr("linkforge_compile.importers.xacro.run.MAX_SECONDS", 1)
     (vendor / "urdf" / "arm.urdf.xacro").write_text(ARM.replace("  <gazebo>", f"  {text}<gazebo>"), "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
     [diagnostic] = compilation.diagnostics

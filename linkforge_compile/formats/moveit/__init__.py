@@ -1,0 +1,75 @@
+"""The configuration of MoveIt: the folder `config` of a package, as `moveit_configs_utils` reads it."""
+
+from __future__ import annotations
+
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.format import Format
+from linkforge_compile.formats.joint_limits import JointLimitsYaml
+from linkforge_compile.formats.ros2_controllers import Ros2Controllers
+from linkforge_compile.formats.srdf import Srdf
+from linkforge_compile.formats.urdf import Urdf
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.format import Document, Options, Rendering
+    from linkforge_compile.formats.views import View
+
+__all__ = ["MoveIt"]
+
+_WHOLE_FILES: Mapping[str, Format] = {
+    "config/robot.urdf": Urdf(),
+    "config/robot.srdf": Srdf(),
+    "config/joint_limits.yaml": JointLimitsYaml(),
+    "config/ros2_controllers.yaml": Ros2Controllers(),
+}
+"""Files that are the documents of other formats."""
+
+_OWN_FILES = {
+    f"config/{name}": f"moveit/{name}.j2"
+    for name in ("kinematics.yaml", "moveit_controllers.yaml", "initial_positions.yaml", "pilz_cartesian_limits.yaml")
+}
+"""Files of which there is a template each."""
+
+
+class MoveIt(Format):
+    """What MoveItConfigsBuilder("robot", package_name="NAME_moveit_config") looks for in a package."""
+
+    name = "moveit"
+    suffix = "_moveit_config"
+    share_folder = ""
+    files = (*_WHOLE_FILES, *_OWN_FILES)
+    description = "the configuration of MoveIt, with the URDF and the SRDF"
+    keeps = "the URDF, the SRDF, kinematics solvers, limits of joints, controllers and initial positions"
+    loses = "planning pipelines, sensors and launch files, for which MoveIt has defaults"
+    options = Urdf.options
+
+    def missing(self, robot: Robot) -> Diagnostic | None:
+        from linkforge_compile.formats.moveit.limits import missing_groups
+
+        return missing_groups(robot)
+
+    def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
+        from linkforge_compile.formats.moveit.limits import check_execution
+
+        others = (one.limits(robot, options) for one in _WHOLE_FILES.values() if not one.is_default)
+        return chain(*others, check_execution(robot))
+
+    def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
+        from linkforge_compile.formats.yaml_document import render_yaml
+
+        def views() -> dict[str, object]:
+            return {"robot": robot, self.name: self.view(robot, rendering.options)}
+
+        whole = (one.render(robot, rendering)[0]._replace(name=name) for name, one in _WHOLE_FILES.items())
+        own = (render_yaml(template, views, rendering, name) for name, template in _OWN_FILES.items())
+        return (*whole, *own)
+
+    def view(self, robot: Robot, options: Options) -> View:
+        from linkforge_compile.formats.moveit.view import moveit_view
+
+        return moveit_view(robot)

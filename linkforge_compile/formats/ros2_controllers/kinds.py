@@ -1,0 +1,78 @@
+"""Classes of ros2_controllers: which of their parameters have the joints, interfaces and sensors of a controller.
+
+The names are those of the parameters that each package declares in its `…_parameters.yaml`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+GRIPPER = "parallel_gripper_action_controller/GripperActionController"
+OLD_GRIPPER = "position_controllers/GripperActionController"
+EFFORT_GRIPPER = "effort_controllers/GripperActionController"
+FORWARD = "forward_command_controller/ForwardCommandController"
+STATES = "joint_state_broadcaster/JointStateBroadcaster"
+DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
+
+GRIPPERS = (GRIPPER, OLD_GRIPPER, EFFORT_GRIPPER)
+
+_ANY: Mapping[str, str] = {
+    "joints": "joints",
+    "left_wheels": "left_wheel_names",
+    "right_wheels": "right_wheel_names",
+    "sensor": "sensor_name",
+    "frame": "frame_id",
+    "command_interfaces": "command_interfaces",
+    "state_interfaces": "state_interfaces",
+}
+
+
+class Kind(NamedTuple):
+    """A class of controllers.
+
+    `parameters` are the names of its parameters by the fields of Controller; those in `single` have one name and no
+    list. It needs those in `required`, other parameters too. `whole` are its parameters that are whole numbers, None
+    where that is not known.
+    """
+
+    parameters: Mapping[str, str] = MappingProxyType(_ANY)
+    single: frozenset[str] = frozenset()
+    required: tuple[str, ...] = ()
+    whole: frozenset[str] | None = frozenset()
+
+
+def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] = (), **renamed: str) -> Kind:
+    names = {field: _ANY[field] for field in fields} | renamed
+    return Kind(names, frozenset(single), required or tuple(names[field] for field in fields))
+
+
+_GROUP, _SENSOR = _kind("joints"), _kind("sensor", "frame")
+
+KINDS: Mapping[str, Kind] = {
+    TRAJECTORY: _kind("joints", "command_interfaces", "state_interfaces"),
+    GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint", state_interfaces="state_interfaces"),
+    OLD_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
+    EFFORT_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
+    FORWARD: _kind("joints", single=("command_interfaces",), command_interfaces="interface_name"),
+    "position_controllers/JointGroupPositionController": _GROUP,
+    "velocity_controllers/JointGroupVelocityController": _GROUP,
+    "effort_controllers/JointGroupEffortController": _GROUP,
+    STATES: Kind({"joints": "joints", "state_interfaces": "interfaces"}),
+    DIFF_DRIVE: _kind(
+        "left_wheels",
+        "right_wheels",
+        required=("left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"),
+    )._replace(whole=frozenset({"velocity_rolling_window_size"})),
+    "imu_sensor_broadcaster/IMUSensorBroadcaster": _SENSOR,
+    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": _SENSOR._replace(whole=None),
+}
+
+ANY_KIND = Kind(whole=None)
+"""What any other class is given: all that a controller has, under the usual names."""
+
+
+def kind_of(type_: str | None) -> Kind:
+    return KINDS.get(type_ or "", ANY_KIND)
