@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_up
+from linkforge_compile.core.models.graph import child_joints, parent_joints
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.sensor import SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD
@@ -66,8 +66,20 @@ class Layout:
 
     def body_of(self, link: str) -> str:
         """Return the link whose body holds a link: itself, unless that is a frame."""
-        *_, last = walk_up(link, self.frames)
-        return last
+        return self._bodies.get(link, link)
+
+    @cached_property
+    def _bodies(self) -> Mapping[str, str]:
+        """The link whose body holds each frame; a long chain of frames is walked once."""
+        bodies: dict[str, str] = {}
+        for name in self.frames:
+            trail: dict[str, None] = {}
+            link = name
+            while link in self.frames and link not in trail and link not in bodies:
+                trail[link] = None
+                link = self.frames[link]
+            bodies |= dict.fromkeys(trail, bodies.get(link, link))
+        return bodies
 
     def is_joint(self, joint: Joint) -> bool:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
@@ -115,13 +127,14 @@ def _links_that_need_bodies(robot: Robot) -> set[str]:
 
 def _carrier(link: str, robot: Robot, below: Mapping[str, list[Joint]], bodies: set[str]) -> str | None:
     """Return the first link with a mass that fixed joints hold to a link, by links without one."""
-    held = [link]
+    held, seen = [link], {link}
     for name in held:
         for joint in below.get(name, ()):
             child = robot.links.get(joint.child)
-            if child is None or joint.type != JointType.FIXED or child.name in bodies or child.name in held:
+            if child is None or joint.type != JointType.FIXED or child.name in bodies or child.name in seen:
                 continue
             if _has_mass(child):
                 return child.name
             held.append(child.name)
+            seen.add(child.name)
     return None

@@ -75,17 +75,18 @@ def _sensors(robot: Robot, layout: Layout) -> tuple[Mapping[str, list[View]], Ma
     """Return the sensors of each link, and those of each joint, which has the frame of the link below it."""
     on_links: dict[str, list[View]] = defaultdict(list)
     in_joints: dict[str, list[View]] = defaultdict(list)
+    views = UrdfViews(robot, None, "gz")
     for sensor in robot.sensors:
         if sensor.type != SensorType.FORCE_TORQUE:
-            on_links[sensor.link_name].append(_sensor(sensor, robot, layout))
+            on_links[sensor.link_name].append(_sensor(sensor, views, layout))
         elif joint := layout.above.get(sensor.link_name):
-            in_joints[joint.name].append(_sensor(sensor, robot, layout))
+            in_joints[joint.name].append(_sensor(sensor, views, layout))
     return on_links, in_joints
 
 
-def _sensor(sensor: Sensor, robot: Robot, layout: Layout) -> View:
+def _sensor(sensor: Sensor, views: UrdfViews, layout: Layout) -> View:
     """Return a sensor as in a URDF for Gazebo Sim, which is SDF, where it is exactly."""
-    view = sensor_view(UrdfViews(robot, None, "gz"), sensor, robot, "gz")
+    view = sensor_view(views, sensor, layout.robot, "gz")
     is_on_frame = sensor.link_name in layout.frames
     view.pose = pose(sensor.origin, relative_to=sensor.link_name if is_on_frame else None)
     return view

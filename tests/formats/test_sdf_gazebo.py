@@ -1,0 +1,147 @@
+"""What Gazebo adds to a robot is in its SDF: sensors with their poses, contact settings, physics of joints, plugins."""
+
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from linkforge_compile import compile_file
+from linkforge_compile.formats import SDF, Rendering
+from linkforge_compile.formats.render import render_urdf
+from tests.conftest import ROOT
+from tests.formats.sdf import compiled, document, read, reported
+from tests.libsdformat import read_with_libsdformat
+
+LUMPED = """
+links:
+  base_link:
+  root_link: {inertial: {mass: 1, origin: {xyz: [1, 2, 3], rpy: [0.1, 0.2, 0.3]}, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+joints: {weld: {type: fixed, parent: base_link, child: root_link, origin: [0, 0, 10]}}
+sensors: {imu: {type: imu, link: root_link, origin: {xyz: [1, 2, 3], rpy: [0.1, 0.2, 0.3]}}}
+"""
+
+
+def test_a_sensor_on_a_link_below_a_fixed_joint_keeps_its_pose(tmp_path: Path):
+    """The conversion of a URDF puts it at the origin of a merged link: icub-models-generator, issue 140."""
+    (sensor,) = read(LUMPED, tmp_path).links["root_link"]["sensors"]
+    assert sensor["pose"][:3] == pytest.approx([1, 2, 13])
+    assert sensor["pose"][3:] == pytest.approx([0.98334744, 0.03427080, 0.10602051, 0.14357218], abs=1e-8)
+
+
+IMU_ON_FRAME = """
+links: {base: {inertial: *unit}, mast: , imu_link: }
+joints:
+  up: {type: fixed, parent: base, child: mast, origin: {xyz: [0, 0, 1], rpy: [0, 0, 90 deg]}}
+  out: {type: fixed, parent: mast, child: imu_link, origin: [2, 0, 0]}
+sensors: {imu: {type: imu, link: imu_link, origin: [3, 0, 0], topic: /imu, update_rate: 50}}
+"""
+
+
+def test_a_sensor_on_a_link_without_mass_is_where_the_frame_is(tmp_path: Path):
+    (sensor,) = read(IMU_ON_FRAME, tmp_path).links["base"]["sensors"]
+    assert sensor["pose"][:3] == pytest.approx([0, 5, 1])
+    element = etree.fromstring(sensor["xml"])
+    assert (element.get("type"), element.findtext("topic"), element.findtext("update_rate")) == ("imu", "/imu", "50")
+
+
+def test_frames_that_the_conversion_of_a_urdf_loses_are_kept(tmp_path: Path):
+    """gazebosim/sdformat, issue 986: fixed joints are lost, and massless links with all below them."""
+    text = (
+        "links: {base: {inertial: *unit}, arm: , tool: {inertial: *unit}}\njoints:\n"
+        "  turn: {type: continuous, parent: base, child: arm, axis: z, origin: [0, 0, 1]}\n"
+        "  flange: {type: fixed, parent: arm, child: tool, origin: [0, 1, 0]}\n"
+        "  wrist: {type: continuous, parent: tool, child: hand, axis: z}\n"
+        "frames: {tcp: {parent: tool, origin: [0, 0, 5]}}\n"
+    ).replace("tool: {inertial: *unit}}", "tool: {inertial: *unit}, hand: {inertial: *unit}}")
+    converted = read_with_libsdformat(render_urdf(compiled(text)), tmp_path, suffix=".urdf")
+    # The conversion merges the tool into the arm, and has no joint at the flange.
+    assert "tool" not in converted.links
+    ours = read(text, tmp_path)
+    assert list(ours.links) == ["base", "tool", "hand"]
+    assert list(ours.joints) == ["turn", "wrist"]
+    assert ours.frames["tcp"]["pose"][:3] == pytest.approx([0, 1, 6])
+    assert ours.frames["arm"]["pose"][:3] == pytest.approx([0, 0, 1])
+
+
+def test_every_type_of_sensor_is_read(tmp_path: Path):
+    robot = compile_file(ROOT / "tests" / "cases" / "good" / "sensors" / "sensors.robot.yaml").result()
+    found = read_with_libsdformat(SDF.render(robot, Rendering())[0].text, tmp_path)
+    assert found.complaints == []
+    types = {
+        sensor["name"]: etree.fromstring(sensor["xml"]).get("type")
+        for part in (*found.links.values(), *found.joints.values())
+        for sensor in part["sensors"]
+    }
+    assert types == {
+        "scanner": "gpu_lidar",
+        "old_scanner": "gpu_lidar",
+        "fast_scanner": "gpu_lidar",
+        "imu": "imu",
+        "plain_imu": "imu",
+        "gps": "navsat",
+        "eye": "camera",
+        "depth": "depth_camera",
+        "both": "rgbd_camera",
+        "touch": "contact",
+        "wrench": "force_torque",
+    }
+    # A force is sensed in the joint above the link, at the pose of the link.
+    (wrench,) = found.joints["wrist"]["sensors"]
+    assert wrench["pose"] == pytest.approx(found.links["finger"]["pose"])
+
+
+CONTACT = """
+links:
+  base:
+    inertial: *unit
+    physics: {mu: 0.6, mu2: 0.5, self_collide: true, gravity: false}
+    gazebo: {kp: 1e6, kd: 100, minDepth: 1 mm, maxVel: 0.1 m/s, fdir1: [1, 0, 0], maxContacts: 4, laserRetro: 7}
+    collision: [{sphere: 1}, {box: [1, 1, 1], name: lid}]
+"""
+
+
+def test_contact_settings_are_those_of_each_collision(tmp_path: Path):
+    base = read(CONTACT, tmp_path).links["base"]
+    assert (base["self_collide"], base["gravity"]) == (True, False)
+    assert [shape["name"] for shape in base["collisions"]] == ["base_collision", "lid"]
+    for shape in base["collisions"]:
+        element = etree.fromstring(shape["xml"])
+        friction, contact = element.find("surface/friction/ode"), element.find("surface/contact/ode")
+        assert [friction.findtext(tag) for tag in ("mu", "mu2", "fdir1")] == ["0.6", "0.5", "1 0 0"]
+        values = [float(contact.findtext(tag)) for tag in ("kp", "kd", "min_depth", "max_vel")]
+        assert values == [1e6, 100, 0.001, 0.1]
+        assert (element.findtext("max_contacts"), element.findtext("laser_retro")) == ("4", "7")
+
+
+def test_a_material_of_gazebo_settings_is_that_of_the_visuals():
+    text = """
+links:
+  base:
+    inertial: *unit
+    visual: {box: [1, 1, 1], material: {color: [1, 0, 0]}}
+    gazebo: {properties: {visual: {material: {pbr: {metal: {roughness: "0.3"}}}}}}
+"""
+    (material,) = document(text).iterfind(".//visual/material")
+    assert [child.tag for child in material] == ["pbr"]
+    assert reported(text) == []
+
+
+def test_plugins_of_the_robot_are_those_of_the_model(tmp_path: Path):
+    text = """
+links: {base: {inertial: *unit}}
+gazebo: {static: true, plugins: {control: {filename: libcontrol.so, parameters: {rate: 5}}}}
+"""
+    (model,) = read(text, tmp_path).models.values()
+    assert model["static"] is True
+    assert [(plugin["name"], plugin["filename"]) for plugin in model["plugins"]] == [("control", "libcontrol.so")]
+    assert "<rate>5</rate>" in model["plugins"][0]["xml"]
+
+
+def test_a_force_torque_sensor_without_a_joint_is_reported():
+    text = "links: {base: {inertial: *unit}}\nsensors: {wrench: {type: force_torque, link: base}}"
+    assert reported(text) == ["LF7501 SDF has no force-torque sensors without a joint; that of 'wrench' is left out"]
+
+
+def test_a_plugin_of_a_link_is_reported():
+    text = "links: {base: {inertial: *unit, gazebo: {plugins: {glow: {filename: libglow.so}}}}}"
+    assert reported(text) == ["LF7501 SDF has no plugins of links and joints; that of 'glow' is left out"]
