@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+import yaml
 
 from linkforge_compile import __version__
 from linkforge_compile.cli.targets import name_of
@@ -121,6 +122,8 @@ def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Wo
     assert "GazeboSimSystem" in sim
     assert "<update_rate>15</update_rate>" in sim
     assert not (share / "urdf" / "pan_tilt_sim.srdf").exists()
+    controllers = yaml.safe_load((share / "config" / "pan_tilt_controllers.yaml").read_text("utf-8"))
+    assert controllers["head_controller"]["ros__parameters"]["joints"] == ["pan_turn", "tilt_turn"]
     assert {path.name for path in (share / "robots").iterdir()} == {"pan_tilt.robot.yaml", "servo.robot.yaml"}
     assert str(workspace.source) not in sim
 
