@@ -145,7 +145,7 @@ OFFERED = {
     "a new group": ("semantic:\n  groups:\n    |", ["group"]),
     "in a group": (
         "semantic:\n  groups:\n    arm:\n      |",
-        ["chain", "chains", "group", "joints", "links", "subgroups"],
+        ["chain", "chains", "group", "joints", "kinematics", "links", "subgroups"],
     ),
     "in a chain": ("semantic:\n  groups:\n    arm: {chain: {ba|}}", ["base_link", "chain", "tip_link"]),
     "a group's states": ("semantic:\n  group_states:\n    arm: |", ["state"]),

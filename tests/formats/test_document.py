@@ -28,8 +28,8 @@ def test_every_format_is_in_the_table():
     assert [(one.name, one.suffix) for one in FORMATS] == [
         ("urdf", ".urdf"),
         ("srdf", ".srdf"),
-        ("mjcf", ".mjcf"),
         ("sdf", ".sdf"),
+        ("mjcf", ".mjcf"),
         ("joint_limits", "_joint_limits.yaml"),
         ("ros2_controllers", "_controllers.yaml"),
         ("moveit", "_moveit_config"),
