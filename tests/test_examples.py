@@ -223,8 +223,8 @@ def placed(robot: Robot, state: str, group: str) -> dict[str, np.ndarray]:
     pinocchio = pytest.importorskip("pinocchio")
     model = pinocchio_model(render_urdf(robot))
     q = pinocchio.neutral(model)
-    said = next(each for each in robot.semantic.group_states if (each.name, each.group) == (state, group))
-    for joint, (value,) in said.joint_values.items():
+    group_state = next(each for each in robot.semantic.group_states if (each.name, each.group) == (state, group))
+    for joint, (value,) in group_state.joint_values.items():
         q[model.joints[model.getJointId(joint)].idx_q] = value
     data = model.createData()
     pinocchio.framesForwardKinematics(model, data, q)

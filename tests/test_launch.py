@@ -184,20 +184,20 @@ def test_a_fault_fails_the_launch_and_is_reported_at_its_place(ros: Ros, spec: P
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "expected"),
     [
         ({"serial": "A1"}, "<launch argument>:1:13: error: parameter 'reach'"),
         ({"serial": "A1", "reach": 3}, "<launch file>:1:8: error: parameter 'reach'"),
     ],
 )
 def test_a_wrong_value_is_reported_in_the_form_of_a_launch_argument(
-    ros: Ros, spec: Path, given: dict[str, object], said: str
+    ros: Ros, spec: Path, given: dict[str, object], expected: str
 ):
     robot = ros.ours.RobotDescription(spec, given, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure) as caught:
         robot.urdf.perform(launched(ros, robot, left_reach="3 m"))
-    assert said in str(caught.value)
+    assert expected in str(caught.value)
     assert "command line" not in str(caught.value)
 
 
@@ -240,12 +240,12 @@ def test_a_launch_compiles_once_and_logs_diagnostics(
             robot.srdf.perform(context)
             robot.urdf.perform(context)
     assert len(compiled) == 1
-    told = {record.levelname: record.message for record in caplog.records}
-    assert len(caplog.records) == len(told) == 2, caplog.messages
-    assert "arm.robot.yaml:14:" in told["WARNING"]
-    assert "[LF7002]" in told["WARNING"]
-    assert "note: " in told["INFO"]
-    assert ": note: " not in told["WARNING"]
+    records = {record.levelname: record.message for record in caplog.records}
+    assert len(caplog.records) == len(records) == 2, caplog.messages
+    assert "arm.robot.yaml:14:" in records["WARNING"]
+    assert "[LF7002]" in records["WARNING"]
+    assert "note: " in records["INFO"]
+    assert ": note: " not in records["WARNING"]
     robot.urdf.perform(launched(ros, robot))
     assert len(compiled) == 2, "another launch is told as well"
 

@@ -41,9 +41,9 @@ def small_files_only() -> None:
 def test_a_disk_that_is_full_leaves_the_old_file_and_nothing_else(tmp_path: Path):
     (tmp_path / "out.urdf").write_text("old")
     with compiler(tmp_path, 200, preexec_fn=small_files_only) as run:
-        told = run.communicate(timeout=120)[1]
+        stderr = run.communicate(timeout=120)[1]
     assert run.returncode == 2
-    assert "cannot write 'out.urdf'" in told
+    assert "cannot write 'out.urdf'" in stderr
     assert {path.name: path.read_text() for path in tmp_path.glob("*out*")} == {"out.urdf": "old"}
 
 
@@ -84,10 +84,10 @@ def test_an_unwritable_folder_is_reported(tmp_path: Path):
     tmp_path.chmod(0o500)
     try:
         with compiler(tmp_path, 3) as run:
-            told = run.communicate(timeout=120)[1]
+            stderr = run.communicate(timeout=120)[1]
     finally:
         tmp_path.chmod(0o700)
-    assert (run.returncode, "cannot write" in told) == (2, True)
+    assert (run.returncode, "cannot write" in stderr) == (2, True)
 
 
 def test_two_compiles_into_one_file_give_one_whole_result(tmp_path: Path):

@@ -160,5 +160,5 @@ def test_a_quaternion_that_differs_from_rpy_is_reported_for_its_readers(shape: S
     robot = Robot(
         "r", links=[Link("a", visuals=[Visual(shape, Transform(extra_attributes=[("quat_xyzw", "0 0 1 0")]))])]
     )
-    told = [one for one in URDF.limits(robot, {}) if one.code is OTHER_QUATERNION]
-    assert len(told) == isinstance(shape, Capsule)
+    diagnostics = [one for one in URDF.limits(robot, {}) if one.code is OTHER_QUATERNION]
+    assert len(diagnostics) == isinstance(shape, Capsule)
