@@ -54,6 +54,7 @@ OTHER_FORMATS = [
     ("02_ur5e/ur5e_mocked", "mjcf"),
     ("02_ur5e/ur5e_mocked", "joint_limits"),
     ("02_ur5e/ur5e_mocked", "ros2_controllers"),
+    ("02_ur5e/ur5e_mocked", "moveit"),
     ("09_mobile_manipulator/mobile_manipulator", "mjcf"),
     ("09_mobile_manipulator/mobile_manipulator", "joint_limits"),
 ]

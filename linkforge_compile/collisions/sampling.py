@@ -41,9 +41,16 @@ class SamplingSettings(NamedTuple):
     jobs: int = 1
 
 
+class Finding(NamedTuple):
+    """Why a pair needs no check, and the share of the counted samples in which it collides; None if not sampled."""
+
+    reason: Reason
+    share: float | None = None
+
+
 def find_reasons(
     scene: Scene, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
-) -> dict[Pair, Reason]:
+) -> dict[Pair, Finding]:
     """Return why pairs need no check; those that collide in some samples, but not in all, are not returned.
 
     As in MoveIt's Setup Assistant, the first of the reasons that holds is taken: adjacent, in collision in the
@@ -52,37 +59,30 @@ def find_reasons(
     from linkforge_compile.collisions.collider import Collider
 
     adjacent = adjacent_pairs(scene)
-    reasons = {pair: Reason.ADJACENT for pair in pairs if pair in adjacent}
-    collider = Collider(scene, [pair for pair in pairs if pair not in adjacent])
+    found = {pair: Finding(Reason.ADJACENT) for pair in pairs if pair in adjacent}
+    others = [pair for pair in pairs if pair not in adjacent]
+    collider = Collider(scene, others)
     by_default = collider.colliding(collider.default_positions())
-    reasons |= dict.fromkeys(by_default, Reason.DEFAULT)
-    unknown = [pair for pair in pairs if pair not in reasons]
-    return reasons | _sample(scene, collider, unknown, settings, progress)
-
-
-def _sample(
-    scene: Scene, collider: Collider, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
-) -> dict[Pair, Reason]:
     blocks = list(_blocks(settings.samples))
-    done, counts, begin = 0, Counter[Pair](), monotonic()
-    for block in blocks[:COUNTED_BLOCKS]:
-        counts += _count(collider, pairs, block, settings.seed)
-        done += block.samples
-        progress(done)
-    reasons = {pair: Reason.ALWAYS for pair, count in counts.items() if count >= ALWAYS_SHARE * done}
-    free = [pair for pair in pairs if pair not in counts]
-    rest = blocks[COUNTED_BLOCKS:]
-    expected = (monotonic() - begin) * len(rest) / COUNTED_BLOCKS
-    if settings.jobs > 1 and expected > WORTH_PROCESSES:
-        found = _find_in_processes(scene, free, rest, settings)
+    begin = monotonic()
+    shares = _shares(collider, others, blocks[:COUNTED_BLOCKS], settings.seed, progress)
+    seconds = (monotonic() - begin) / COUNTED_BLOCKS * len(blocks)
+    found |= {pair: Finding(Reason.DEFAULT, shares[pair]) for pair in by_default}
+    always = (pair for pair, share in shares.items() if share >= ALWAYS_SHARE and pair not in by_default)
+    found |= {pair: Finding(Reason.ALWAYS, shares[pair]) for pair in always}
+    free = [pair for pair in others if not shares[pair] and pair not in by_default]
+    rest = blocks[COUNTED_BLOCKS:] if free else []
+    if settings.jobs > 1 and seconds > WORTH_PROCESSES and rest:
+        searched = _find_in_processes(scene, free, rest, settings)
     else:
-        found = ((block, _find(collider, free, block, settings.seed)) for block in rest)
-    seen: set[Pair] = set()
-    for block, colliding in found:
-        seen |= colliding
+        searched = ((block, _find(collider, free, block, settings.seed)) for block in rest)
+    colliding: set[Pair] = set()
+    done = sum(block.samples for block in blocks[:COUNTED_BLOCKS])
+    for block, seen in searched:
+        colliding |= seen
         done += block.samples
         progress(done)
-    return reasons | dict.fromkeys((pair for pair in free if pair not in seen), Reason.NEVER)
+    return found | {pair: Finding(Reason.NEVER, 0.0) for pair in free if pair not in colliding}
 
 
 class Block(NamedTuple):
@@ -97,16 +97,21 @@ def _blocks(samples: int) -> Iterator[Block]:
         yield Block(number, min(BLOCK, samples - start))
 
 
-def _count(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) -> Counter[Pair]:
-    """Return in how many samples of a block each pair collides."""
+def _shares(
+    collider: Collider, pairs: Collection[Pair], blocks: Collection[Block], seed: int, progress: Progress
+) -> dict[Pair, float]:
+    """Return in which share of the samples of blocks each pair collides."""
     import numpy as np
 
     collider.select(frozenset(pairs))
-    generator = np.random.default_rng((seed, block.number))
-    counts = Counter[Pair]()
-    for _ in range(block.samples):
-        counts.update(collider.colliding(collider.random_positions(generator)))
-    return counts
+    counts, done = Counter[Pair](), 0
+    for block in blocks:
+        generator = np.random.default_rng((seed, block.number))
+        for _ in range(block.samples):
+            counts.update(collider.colliding(collider.random_positions(generator)))
+        done += block.samples
+        progress(done)
+    return {pair: counts[pair] / done for pair in pairs}
 
 
 def _find(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) -> set[Pair]:

@@ -11,6 +11,7 @@ from linkforge_compile.formats.joint_limits import JointLimitsYaml
 from linkforge_compile.formats.mjcf import Mjcf
 from linkforge_compile.formats.moveit import MoveIt
 from linkforge_compile.formats.ros2_controllers import Ros2Controllers
+from linkforge_compile.formats.sdf import Sdf
 from linkforge_compile.formats.srdf import Srdf
 from linkforge_compile.formats.urdf import Urdf
 
@@ -26,6 +27,7 @@ __all__ = [
     "MOVEIT",
     "NO_OPTIONS",
     "ROS2_CONTROLLERS",
+    "SDF",
     "SRDF",
     "URDF",
     "Document",
@@ -40,10 +42,10 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF = Urdf(), Srdf(), Mjcf()
+URDF, SRDF, SDF, MJCF = Urdf(), Srdf(), Sdf(), Mjcf()
 JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT = JointLimitsYaml(), Ros2Controllers(), MoveIt()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, SDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

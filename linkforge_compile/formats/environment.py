@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import yaml
 
 
-XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2", ".mjcf.j2")
+XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2", ".mjcf.j2", ".sdf.j2")
 """How the names of templates end that write XML."""
 
 _MADE_BY = "jinja2.txt"

@@ -23,14 +23,15 @@ class MeshPath(NamedTuple):
 
 def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
     """Yield each mesh of a robot once, those of one file with different scales too, in the order of the links."""
-    spec = robot.source.span.file.path if robot.source else None
-    folder = spec.parent if spec else None
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh):
-            yield MeshPath(mesh, _resolved(robot, mesh.resource, folder))
+            yield MeshPath(mesh, find_file(robot, mesh.resource))
 
 
-def _resolved(robot: Robot, resource: str, folder: Path | None) -> Path | None:
+def find_file(robot: Robot, resource: str) -> Path | None:
+    """Return the absolute path of a file that a robot refers to, such as a texture; None for one that is not found."""
+    spec = robot.source.span.file.path if robot.source else None
+    folder = spec.parent if spec else None
     if folder and is_relative(resource) and not exists(folder / resource):
         return None  # the resolver looks in the working folder as well, where no reader of the output does
     try:

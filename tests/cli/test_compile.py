@@ -188,7 +188,7 @@ def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
 @pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: Path):
-    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    plain = linkforge("compile", "swing.robot.yaml", cwd=pendulum).stdout
     piped = program("compile", "swing.robot.yaml", "-o", name, cwd=pendulum)
     assert (piped.returncode, piped.stdout, piped.stderr) == (0, plain, "")
     command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", name]
@@ -201,7 +201,7 @@ def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: P
 
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
 def test_a_pipe_that_a_shell_opened_is_written(pendulum: Path):
-    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    plain = linkforge("compile", "swing.robot.yaml", cwd=pendulum).stdout
     read, write = os.pipe()
     with os.fdopen(read) as pipe:
         command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", f"/dev/fd/{write}"]
@@ -444,7 +444,7 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
-        (("compile", "swing.robot.yaml", "--format", "sdf"), "invalid choice"),
+        (("compile", "swing.robot.yaml", "--format", "usd"), "invalid choice"),
         (
             ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
             "--format srdf does not go into 'a.urdf'",

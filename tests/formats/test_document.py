@@ -29,6 +29,7 @@ def test_every_format_is_in_the_table():
         ("urdf", ".urdf"),
         ("srdf", ".srdf"),
         ("mjcf", ".mjcf"),
+        ("sdf", ".sdf"),
         ("joint_limits", "_joint_limits.yaml"),
         ("ros2_controllers", "_controllers.yaml"),
         ("moveit", "_moveit_config"),

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <sdf/parser.hh>
 #include <sdf/sdf.hh>
 
 using ignition::math::Matrix3d;
@@ -164,9 +165,9 @@ static std::string jointObject(const sdf::Joint &joint, const std::string &prefi
   for (unsigned int i = 0; i < 2; ++i)
     if (joint.Axis(i))
       axes.push_back(axisObject(*joint.Axis(i), model));
+  // libsdformat 12 resolves no poses of sensors in joints; without `relative_to`, they are in the frame of the joint.
   for (uint64_t i = 0; i < joint.SensorCount(); ++i)
-    sensors.push_back(
-        described(*joint.SensorByIndex(i), prefix, at * poseIn(*joint.SensorByIndex(i), joint.Name())));
+    sensors.push_back(described(*joint.SensorByIndex(i), prefix, at * joint.SensorByIndex(i)->RawPose()));
   const auto inModel = [&](const std::string &name) { return quoted(name == "world" ? name : prefix + name); };
   return object({field("name", quoted(prefix + joint.Name())),
                  field("type", quoted(joint.Element()->Get<std::string>("type"))), field("parent", inModel(parent)),
@@ -216,6 +217,15 @@ int main(int count, char **words)
   }
   sdf::Root root;
   report(root.Load(words[1], config));
+  // What `gz sdf --check` does besides; they print to standard error.
+  if (const auto element = root.Element())
+    sdf::recursiveSiblingUniqueNames(element);
+  sdf::checkCanonicalLinkNames(&root);
+  sdf::Errors ofJoints;
+  sdf::checkJointParentChildNames(&root, ofJoints);
+  report(ofJoints);
+  sdf::checkFrameAttachedToGraph(&root);
+  sdf::checkPoseRelativeToGraph(&root);
   Found found;
   if (root.Model())
     gather(*root.Model(), "", Pose3d::Zero, found);

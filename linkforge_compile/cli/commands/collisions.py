@@ -140,6 +140,7 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
     from linkforge_compile.collisions.matrix import find_matrix
     from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.diagnostics import Diagnostics
+    from linkforge_compile.diagnostics.grouping import group_alike
 
     sink = Diagnostics()
     settings = SamplingSettings(arguments.samples, arguments.seed, arguments.jobs)
@@ -148,7 +149,7 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
         matrix = find_matrix(robot, settings, bar.show, sink, is_all=arguments.all)
     finally:
         bar.close()
-    report(sink.sorted(), arguments)
+    report(group_alike(sink.sorted()), arguments)
     return matrix
 
 

@@ -155,6 +155,45 @@ NO_MESSAGES = Code(
     subject="sensor",
 )
 
+# LF75xx: SDF
+NOT_IN_SDF = Code(
+    "LF7501", _W, "SDF has no {parts}; that of '{name}' is left out", subject="name", grouped_by=("parts",)
+)
+WEIGHTLESS_IN_SDF = Code(
+    "LF7502",
+    _W,
+    "Gazebo needs a mass for each body, so '{link}' has 1e-9 kg in the SDF; give it an inertial",
+    subject="link",
+)
+IMPOSSIBLE_FOR_GAZEBO = Code(
+    "LF7503",
+    _W,
+    "Gazebo refuses the inertia of '{link}', so all its moments are larger in the SDF; correct the tensor",
+    subject="link",
+)
+RENAMED_IN_SDF = Code(
+    "LF7504",
+    _W,
+    "links and joints share their names in SDF, so joint '{joint}' is '{name}' there; rename the joint or the link",
+    subject="joint",
+)
+RESERVED_IN_SDF = Code("LF7505", _E, "SDF has the name '{name}' for a frame of its own; rename this one")
+NO_MIMIC_IN_SDF = Code(
+    "LF7506",
+    _W,
+    "SDF 1.9 has no mimic joints, so '{joint}' moves by itself; leave out `--sdf 1.9`, or choose 1.11",
+    subject="joint",
+)
+FREE_IN_SDF = Code(
+    "LF7507",
+    _W,
+    "SDF has no planar joints, so '{joint}' is left out and link '{link}' moves freely",
+    subject="joint",
+)
+MESH_STAYS_A_URI = Code(
+    "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
+)
+
 # LF76xx: control and planning
 NO_LIMIT_FOR_MOVEIT = Code(
     "LF7601",

@@ -1,0 +1,64 @@
+"""SDF: the robot for Gazebo Sim."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.format import Option, TemplateFormat
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.formats.format import Options
+    from linkforge_compile.formats.sdf.view import SdfChoices
+    from linkforge_compile.formats.views import View
+
+__all__ = ["MESHES", "VERSION", "Sdf"]
+
+VERSION = Option(
+    "sdf",
+    ("least", "1.9", "1.11"),
+    "least",
+    "the version of SDF: 1.9 for Gazebo Fortress and later, 1.11 for Harmonic and later (default: 1.9, or 1.11 for a "
+    "robot with mimic joints)",
+)
+
+MESHES = Option(
+    "meshes",
+    ("model", "file"),
+    "model",
+    "what meshes of packages are in SDF: model://, which GZ_SIM_RESOURCE_PATH resolves, or files of this machine "
+    "(default: model)",
+)
+
+
+class Sdf(TemplateFormat):
+    """The format SDF."""
+
+    name = "sdf"
+    suffix = ".sdf"
+    share_folder = "sdf"
+    description = "the robot for Gazebo Sim"
+    keeps = "links, joints, inertials, shapes, materials, contact settings, sensors and plugins, with all their frames"
+    loses = "planar joints, safety controllers, transmissions, and raw XML of a URDF"
+    has_relative_paths = True
+    options = (VERSION, MESHES)
+
+    def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
+        from linkforge_compile.formats.sdf.limits import sdf_limits
+
+        yield from sdf_limits(robot, self._choices(options))
+
+    def root_view(self, robot: Robot, options: Options) -> View:
+        from linkforge_compile.formats.sdf.view import robot_view
+
+        return robot_view(robot, self._choices(options))
+
+    @staticmethod
+    def _choices(options: Options) -> SdfChoices:
+        from linkforge_compile.formats.sdf.view import SdfChoices
+
+        version = VERSION.value(options)
+        return SdfChoices(None if version == VERSION.default else version, MESHES.value(options) == "file")

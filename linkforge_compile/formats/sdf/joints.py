@@ -1,0 +1,96 @@
+"""Joints in SDF, and the frames that fixed joints of links without mass, floating and planar ones become."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.models.geometry import Vector3
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
+from linkforge_compile.formats.sdf.layout import MODEL, Layout
+from linkforge_compile.formats.sdf.settings import Settings, joint_physics, spring_elements
+from linkforge_compile.formats.views import View
+from linkforge_compile.formats.xml_text import NOTHING, Xml
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+_TYPES = {JointType.CONTINUOUS: "revolute"}
+_X = Vector3(1.0, 0.0, 0.0)
+
+
+def joint_view(joint: Joint, layout: Layout, settings: Settings, sensors: Sequence[View], *, has_mimic: bool) -> View:
+    """Return a joint; its frame is that of its child, as in URDF, so that the axis has the same numbers."""
+    is_on_world = layout.is_world(joint.parent)
+    return View(
+        attributes=attributes_at(
+            joint.source, name=layout.joint_names[joint.name], type=_TYPES.get(joint.type, joint.type)
+        ),
+        pose=pose(joint.origin, relative_to=MODEL if is_on_world else joint.parent),
+        parent=text("parent", WORLD if is_on_world else joint.parent, joint.source, "parent"),
+        child=text("child", joint.child, joint.source, "child"),
+        axis=NOTHING if joint.type == JointType.FIXED else _axis(joint, layout, settings, has_mimic=has_mimic),
+        physics=joint_physics(settings),
+        sensors=sensors,
+    )
+
+
+def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) -> Xml:
+    """Return an axis; a missing limit is 0, as to readers of URDF, and a continuous joint has none."""
+    limits, dynamics, source = joint.limits, joint.dynamics, joint.source
+    of_limits: list[Xml] = []
+    if limits:
+        if joint.type != JointType.CONTINUOUS:
+            of_limits.append(text("lower", limits.lower or 0.0, limits.source, "lower"))
+            of_limits.append(text("upper", limits.upper or 0.0, limits.source, "upper"))
+        of_limits.append(text("effort", limits.effort, limits.source, "effort"))
+        of_limits.append(text("velocity", limits.velocity, limits.source, "velocity"))
+    of_dynamics = list(spring_elements(settings))
+    if dynamics:
+        of_dynamics.append(text("damping", dynamics.damping, dynamics.source, "damping"))
+        of_dynamics.append(text("friction", dynamics.friction, dynamics.source, "friction"))
+    return parent(
+        "axis",
+        text("xyz", joint.axis or _X, source, "axis"),
+        parent("limit", *of_limits),
+        parent("dynamics", *of_dynamics),
+        _mimic(joint, layout) if has_mimic else NOTHING,
+    )
+
+
+def _mimic(joint: Joint, layout: Layout) -> Xml:
+    mimic = joint.mimic
+    if mimic is None or not layout.robot.has_joint(mimic.joint):
+        return NOTHING
+    source = mimic.source
+    inner = (
+        text("multiplier", mimic.multiplier, source, "multiplier"),
+        text("offset", mimic.offset, source, "offset"),
+        text("reference", 0.0, source),
+    )
+    return Xml(f"<mimic{attributes_at(source, joint=layout.joint_names[mimic.joint])}>{''.join(inner)}</mimic>")
+
+
+def frame_elements(robot: Robot, layout: Layout) -> list[Xml]:
+    """Return the frames of joints that are none in SDF, and of links without a body."""
+    joints = [_frame_of_joint(joint, layout) for joint in robot.joints if not layout.is_joint(joint)]
+    return joints + [_frame_of_link(link, layout) for link in layout.frames]
+
+
+def _frame_of_joint(joint: Joint, layout: Layout) -> Xml:
+    attached_to = None if layout.is_world(joint.parent) else joint.parent
+    attributes = attributes_at(joint.source, name=layout.joint_names[joint.name], attached_to=attached_to)
+    return Xml(f"<frame{attributes}>{pose(joint.origin)}</frame>")
+
+
+def _frame_of_link(name: str, layout: Layout) -> Xml:
+    """Return the frame of a link: at its joint, and on what carries it if that is below it."""
+    link, joint = layout.robot.links[name], layout.above.get(name)
+    where = layout.joint_names[joint.name] if joint else MODEL
+    if name not in layout.carriers:
+        return Xml(f"<frame{attributes_at(link.source, name=name, attached_to=where)}/>")
+    attributes = attributes_at(link.source, name=name, attached_to=layout.carriers[name])
+    return Xml(f"<frame{attributes}>{pose_of_frame(where)}</frame>")

@@ -1,0 +1,127 @@
+"""What becomes of links and joints in SDF: bodies and joints, or frames on a body that holds them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_up
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.sensor import SensorType
+from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, settings_by_reference
+from linkforge_compile.formats.unique_name import unique_name
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.link import Link
+    from linkforge_compile.core.models.robot import Robot
+
+MODEL = "__model__"
+"""The frame of the model, where its root link is."""
+
+_WITH_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the links and joints of a robot are laid out.
+
+    A body of Gazebo has a mass. A link without one is a frame: on the link that a fixed joint holds it to, else on the
+    first link with a mass that fixed joints hold to it. `frames` has the link below each frame. `weightless` are the
+    links that need a body all the same, and have a minimal mass.
+    """
+
+    robot: Robot
+    above: Mapping[str, Joint]
+    frames: Mapping[str, str]
+    carriers: Mapping[str, str]
+    weightless: frozenset[str]
+
+    @classmethod
+    def of(cls, robot: Robot) -> Layout:
+        above, below = parent_joints(robot.joints), child_joints(robot.joints)
+        bodies = _links_that_need_bodies(robot)
+        frames: dict[str, str] = {}
+        carriers: dict[str, str] = {}
+        weightless: set[str] = set()
+        for link in robot.links:
+            joint = above.get(link.name)
+            if _has_mass(link) or (link.name == WORLD and joint is None):
+                continue
+            if link.name in bodies:
+                weightless.add(link.name)
+            elif joint and joint.type == JointType.FIXED and not (joint.parent == WORLD and WORLD not in above):
+                frames[link.name] = joint.parent
+            elif carrier := _carrier(link.name, robot, below, bodies):
+                frames[link.name] = carriers[link.name] = carrier
+            else:
+                weightless.add(link.name)
+        return cls(robot, above, frames, carriers, frozenset(weightless))
+
+    def is_world(self, link: str) -> bool:
+        """Whether a link is the world itself."""
+        return link == WORLD and WORLD not in self.above
+
+    def body_of(self, link: str) -> str:
+        """Return the link whose body holds a link: itself, unless that is a frame."""
+        *_, last = walk_up(link, self.frames)
+        return last
+
+    def is_joint(self, joint: Joint) -> bool:
+        """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
+        if joint.type == JointType.FIXED:
+            return self.body_of(joint.child) != self.body_of(joint.parent)
+        return joint.type in _WITH_AXIS
+
+    @cached_property
+    def joint_names(self) -> Mapping[str, str]:
+        """The name of each joint: its own, unless a link has it, since links, joints and frames share their names."""
+        taken = {link.name for link in self.robot.links}
+        names: dict[str, str] = {}
+        for joint in self.robot.joints:
+            name = f"{joint.name}_joint" if joint.name in taken else joint.name
+            names[joint.name] = unique_name(name, taken)
+            taken.add(names[joint.name])
+        return names
+
+    def canonical_link(self) -> str | None:
+        """Return the link that the frame of the model moves with; None for the first one, as is the default."""
+        bodies = [link.name for link in self.robot.links if self.is_body(link)]
+        root = next((link.name for link in self.robot.links if link.name not in self.above), None)
+        if root is None or self.is_world(root):
+            return None
+        body = self.body_of(root)
+        return None if bodies[:1] == [body] else body
+
+    def is_body(self, link: Link) -> bool:
+        """Whether a link is a link in SDF, and neither a frame nor the world."""
+        return link.name not in self.frames and not self.is_world(link.name)
+
+
+def _has_mass(link: Link) -> bool:
+    return link.mass > 0
+
+
+def _links_that_need_bodies(robot: Robot) -> set[str]:
+    """Return the links that cannot be frames: a force is sensed in their joint, or they have elements of a body."""
+    settings = settings_by_reference(robot)
+    with_elements = {
+        name for name, found in settings.items() if name and any(one.tag in LINK_ELEMENTS for one in found)
+    }
+    return with_elements | {one.link_name for one in robot.sensors if one.type == SensorType.FORCE_TORQUE}
+
+
+def _carrier(link: str, robot: Robot, below: Mapping[str, list[Joint]], bodies: set[str]) -> str | None:
+    """Return the first link with a mass that fixed joints hold to a link, by links without one."""
+    held = [link]
+    for name in held:
+        for joint in below.get(name, ()):
+            child = robot.links.get(joint.child)
+            if child is None or joint.type != JointType.FIXED or child.name in bodies or child.name in held:
+                continue
+            if _has_mass(child):
+                return child.name
+            held.append(child.name)
+    return None

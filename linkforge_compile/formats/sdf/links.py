@@ -1,0 +1,111 @@
+"""Links in SDF: their inertials, shapes with materials and surfaces, and those of the frames that they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
+from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
+from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.moments import possible_inertia
+from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
+from linkforge_compile.formats.sdf.layout import Layout
+from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
+from linkforge_compile.formats.unique_name import unique_name
+from linkforge_compile.formats.views import View
+from linkforge_compile.formats.xml_text import NOTHING, Xml
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+LEAST_MASS = 1e-9
+"""The mass of a body that has none [kg]: small enough not to matter."""
+
+
+class Links:
+    """Makes the views of the links that are bodies."""
+
+    def __init__(self, robot: Robot, layout: Layout, settings: Mapping[str | None, Settings], uris: MeshUris) -> None:
+        self._layout, self._settings, self._uris = layout, settings, uris
+        self._held: dict[str, list[Link]] = {}
+        for link in robot.links:
+            if not layout.is_world(link.name):
+                self._held.setdefault(layout.body_of(link.name), []).append(link)
+
+    def view(self, link: Link, sensors: Mapping[str, list[View]]) -> View:
+        """Return a link with the shapes and sensors of all that it holds; `sensors` are those of each link."""
+        joint, held = self._layout.above.get(link.name), self._held[link.name]
+        taken: set[str] = set()
+        return View(
+            attributes=attributes_at(link.source, name=link.name),
+            pose=pose_of_frame(self._layout.joint_names[joint.name] if joint else None),
+            inertial=inertial_element(link, is_weightless=link.name in self._layout.weightless),
+            settings=link_elements(self._settings.get(link.name, ())),
+            visuals=[self._visual(each, one, link, taken) for one in held for each in one.visuals],
+            collisions=[self._collision(each, one, link, taken) for one in held for each in one.collisions],
+            sensors=[sensor for one in held for sensor in sensors.get(one.name, ())],
+        )
+
+    def _visual(self, visual: Visual, link: Link, body: Link, taken: set[str]) -> Xml:
+        of_gazebo = shape_elements("visual", self._settings.get(link.name, ()))
+        # A material of Gazebo's settings is in place of that of the visual.
+        has_material = visual.material and "<material" not in of_gazebo
+        material = self._material(visual.material) if visual.material and has_material else NOTHING
+        return self._shape(visual, link, body, taken, Xml(material + of_gazebo))
+
+    def _collision(self, collision: Collision, link: Link, body: Link, taken: set[str]) -> Xml:
+        return self._shape(collision, link, body, taken, collision_elements(self._settings.get(link.name, ())))
+
+    def _shape(self, shape: Visual | Collision, link: Link, body: Link, taken: set[str], rest: Xml) -> Xml:
+        name = unique_name(shape.name or f"{link.name}_{shape.TAG}", taken)
+        taken.add(name)
+        origin = pose(shape.origin, relative_to=None if link is body else link.name)
+        geometry = parent("geometry", self._geometry(shape.geometry))
+        return Xml(f"<{shape.TAG}{attributes_at(shape.source, name=name)}>{origin}{geometry}{rest}</{shape.TAG}>")
+
+    def _geometry(self, shape: Geometry) -> Xml:
+        where = shape.source
+        match shape:
+            case Box(size=size):
+                inner: Iterable[Xml] = (text("size", size, where, "size"),)
+            case Sphere(radius=radius):
+                inner = (text("radius", radius, where, "radius"),)
+            case Cylinder(radius=radius, length=length) | Capsule(radius=radius, length=length):
+                inner = (text("radius", radius, where, "radius"), text("length", length, where, "length"))
+            case Mesh(scale=scale):
+                uri = text("uri", self._uris.of(shape.resource), where, "file")
+                inner = (uri, text("scale", scale if shape.is_scale_written else None, where, "scale"))
+        return parent(shape.TAG, *inner)
+
+    def _material(self, material: Material) -> Xml:
+        """Return a material: a color is that of all light, and a texture the colors of a surface."""
+        where, color = material.source, material.color
+        rgba = color.to_tuple() if color else None
+        colors = (text(tag, rgba, where, "color") for tag in ("ambient", "diffuse", "specular"))
+        texture = self._uris.of(material.texture) if material.texture else None
+        pbr = parent("pbr", parent("metal", text("albedo_map", texture, where, "texture")))
+        return parent("material", *colors, pbr)
+
+
+def inertial_element(link: Link, *, is_weightless: bool) -> Xml:
+    """Return the mass properties of a link: the same numbers, unless no body can have them."""
+    inertial = link.inertial
+    if is_weightless or inertial is None:
+        least = MIN_REASONABLE_INERTIA
+        inertial = Inertial(LEAST_MASS, inertia=InertiaTensor(least, least, least))
+    tensor, where = possible_inertia(inertial.inertia), inertial.inertia.source
+    entries = (text(name, getattr(tensor, name), where, name) for name in InertiaTensor.ATTRIBUTE_ORDER)
+    return parent(
+        "inertial",
+        pose(inertial.origin),
+        text("mass", inertial.mass, inertial.source, "mass"),
+        parent("inertia", *entries),
+    )
+
+
+def has_possible_inertia(link: Link) -> bool:
+    """Whether a body can have the tensor of a link."""
+    return possible_inertia(link.inertia) == link.inertia

@@ -1,0 +1,31 @@
+"""URIs of meshes and textures in SDF, as Gazebo finds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.formats.mesh_paths import find_file
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+_PACKAGE, _MODEL = "package://", "model://"
+
+
+class MeshUris:
+    """Makes the URIs of files: `model://` for those of packages, or the files on this machine."""
+
+    def __init__(self, robot: Robot, *, is_resolved: bool) -> None:
+        self._robot, self._is_resolved = robot, is_resolved
+
+    def of(self, resource: str) -> str:
+        """Return the URI of a file; one that is not found on this machine is not resolved."""
+        path = self.file(resource) if self._is_resolved else None
+        if path:
+            return path.as_uri()
+        return _MODEL + resource.removeprefix(_PACKAGE) if resource.startswith(_PACKAGE) else resource
+
+    def file(self, resource: str) -> Path | None:
+        """Return the file on this machine, None for none."""
+        return find_file(self._robot, resource)

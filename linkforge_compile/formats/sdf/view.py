@@ -1,0 +1,91 @@
+"""The view of a robot that the templates of SDF lay out."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.core.models.sensor import Sensor, SensorType
+from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.sdf.elements import pose
+from linkforge_compile.formats.sdf.joints import frame_elements, joint_view
+from linkforge_compile.formats.sdf.layout import Layout
+from linkforge_compile.formats.sdf.links import Links
+from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.settings import model_elements, settings_by_reference
+from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
+from linkforge_compile.formats.urdf.view import UrdfViews
+from linkforge_compile.formats.views import View
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+WITH_MIMIC = "1.11"
+"""The first version of SDF with mimic joints, which Gazebo Harmonic reads."""
+
+COMMON = "1.9"
+"""The version that Gazebo Fortress reads, and each later one."""
+
+
+class SdfChoices(NamedTuple):
+    """The user's choices: a version of SDF, None for the least that holds the robot, and what meshes refer to."""
+
+    version: str | None = None
+    has_files: bool = False
+
+
+def sdf_version(robot: Robot, choices: SdfChoices) -> str:
+    """Return the version of the document."""
+    return choices.version or (WITH_MIMIC if any(joint.mimic for joint in robot.joints) else COMMON)
+
+
+def robot_view(robot: Robot, choices: SdfChoices) -> View:
+    """Return what templates see of a robot in SDF."""
+    layout, settings, version = Layout.of(robot), settings_by_reference(robot), sdf_version(robot, choices)
+    links = Links(robot, layout, settings, MeshUris(robot, is_resolved=choices.has_files))
+    on_links, in_joints = _sensors(robot, layout)
+    return View(
+        version=version,
+        attributes=attributes_at(robot.source, "name", name=robot.name, canonical_link=layout.canonical_link()),
+        settings=model_elements(settings.get(None, ())),
+        frames=frame_elements(robot, layout),
+        links=[links.view(link, on_links) for link in robot.links if layout.is_body(link)],
+        joints=[
+            joint_view(
+                joint,
+                layout,
+                settings.get(joint.name, ()),
+                in_joints.get(joint.name, ()),
+                has_mimic=version == WITH_MIMIC,
+            )
+            for joint in robot.joints
+            if layout.is_joint(joint)
+        ],
+        plugins=[
+            plugin_view(plugin)
+            for block in robot.gazebo_elements
+            if block.reference is None
+            for plugin in block.plugins
+        ],
+    )
+
+
+def _sensors(robot: Robot, layout: Layout) -> tuple[Mapping[str, list[View]], Mapping[str, list[View]]]:
+    """Return the sensors of each link, and those of each joint, which has the frame of the link below it."""
+    on_links: dict[str, list[View]] = defaultdict(list)
+    in_joints: dict[str, list[View]] = defaultdict(list)
+    for sensor in robot.sensors:
+        if sensor.type != SensorType.FORCE_TORQUE:
+            on_links[sensor.link_name].append(_sensor(sensor, robot, layout))
+        elif joint := layout.above.get(sensor.link_name):
+            in_joints[joint.name].append(_sensor(sensor, robot, layout))
+    return on_links, in_joints
+
+
+def _sensor(sensor: Sensor, robot: Robot, layout: Layout) -> View:
+    """Return a sensor as in a URDF for Gazebo Sim, which is SDF, where it is exactly."""
+    view = sensor_view(UrdfViews(robot, None, "gz"), sensor, robot, "gz")
+    is_on_frame = sensor.link_name in layout.frames
+    view.pose = pose(sensor.origin, relative_to=sensor.link_name if is_on_frame else None)
+    return view

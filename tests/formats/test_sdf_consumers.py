@@ -1,0 +1,155 @@
+"""libsdformat finds in our SDF what it finds in our URDF, and complains about nothing."""
+
+import re
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from linkforge_compile import compile_file
+from linkforge_compile.core import Robot
+from linkforge_compile.diagnostics.codes.formats import IMPOSSIBLE_FOR_GAZEBO
+from linkforge_compile.formats import SDF, Rendering
+from linkforge_compile.formats.render import render_urdf
+from tests.conftest import ROOT
+from tests.consumers import pinocchio_model
+from tests.importers.robots import OF_CORPUS, OF_EXAMPLES
+from tests.libsdformat import Part, Read, read_with_libsdformat
+
+EXAMPLES = sorted((ROOT / "examples").rglob("*.robot.yaml"))
+REAL = [*OF_EXAMPLES, *OF_CORPUS]
+
+TOLERANCE = 5e-8
+"""libsdformat converts the angles of a URDF to quaternions and back, which is worst near a pitch of a quarter turn."""
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_the_same_to_libsdformat_as_their_urdf(path: Path, tmp_path: Path):
+    robot = compile_file(path).robot
+    assert robot is not None
+    ours = read_ours(robot, tmp_path)
+    assert own_complaints(ours) == []
+    require_poses_of_pinocchio(robot, ours)
+    require_same(robot, ours, converted(robot, tmp_path))
+
+
+@pytest.mark.parametrize("path", REAL, ids=lambda path: path.stem)
+def test_real_robots_are_the_same_to_libsdformat_as_their_urdf(path: Path, tmp_path: Path):
+    robot = compile_file(path).robot
+    assert robot is not None
+    ours = read_ours(robot, tmp_path)
+    # Three versions of TALOS have two sensors of one name on one link, in raw XML.
+    of_author = r"not defined in SDF. Copying|sensor with name\[rgbd_frame_sensor\] already exists"
+    if not path.stem.startswith("talos_reduced"):
+        assert [one for one in own_complaints(ours) if not re.search(of_author, one)] == []
+    require_poses_of_pinocchio(robot, ours)
+    require_same(robot, ours, converted(robot, tmp_path))
+
+
+def read_ours(robot: Robot, folder: Path) -> Read:
+    """Read the SDF of a robot in version 1.9, the last one that libsdformat 12 knows, which has no mimic joints."""
+    return read_with_libsdformat(SDF.render(robot, Rendering({"sdf": "1.9"}))[0].text, folder, is_strict=True)
+
+
+def own_complaints(read: Read) -> list[str]:
+    """Return the complaints, without those about the tag by which Gazebo Harmonic alone knows the frame of a sensor."""
+    return [one for one in read.complaints if "XML Element[gz_frame_id]" not in one]
+
+
+def converted(robot: Robot, folder: Path) -> Read:
+    """Return what libsdformat reads in the URDF of a robot, changed so that the conversion drops nothing.
+
+    It drops links of little mass and all below them, fixed joints, models with an impossible tensor, and of a link and
+    a joint of one name, either.
+    """
+    document = etree.fromstring(render_urdf(robot).encode())
+    for block in document.findall("gazebo"):
+        document.remove(block)
+    changed = changed_inertials(robot)
+    for link in document.iterfind("link"):
+        own = robot.links[link.get("name")]
+        if (own.mass < LEAST or own.name in changed) and own.name != "world":
+            for inertial in link.findall("inertial"):
+                link.remove(inertial)
+            link.append(etree.fromstring(INERTIAL))
+    for joint in document.iterfind("joint"):
+        if robot.has_link(joint.get("name")):
+            joint.set("name", f"{joint.get('name')}_joint")
+        if joint.get("type") == "fixed":
+            block = etree.SubElement(document, "gazebo", reference=joint.get("name"))
+            etree.SubElement(block, "preserveFixedJoint").text = "true"
+    return read_with_libsdformat(etree.tostring(document).decode(), folder, suffix=".urdf")
+
+
+LEAST = 1e-5
+"""A mass that the conversion does not take for 0 [kg]."""
+
+INERTIAL = """
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+"""
+
+
+def changed_inertials(robot: Robot) -> set[str]:
+    """Return the links with a tensor that no body can have, which differs in the SDF."""
+    return {one.message.split("'")[1] for one in SDF.limits(robot, {}) if one.code is IMPOSSIBLE_FOR_GAZEBO}
+
+
+def require_same(robot: Robot, ours: Read, reference: Read) -> None:
+    """Compare poses of all links, mass properties of bodies, and axes and limits of joints with the converted URDF."""
+    changed, loose = changed_inertials(robot), links_below_loose_joints(robot)
+    assert reference.errors == []
+    for link in robot.links:
+        if link.name == "world":
+            continue
+        found, expected = ours.links.get(link.name) or ours.frames[link.name], reference.links[link.name]
+        if link.name not in loose:
+            require_same_pose(found, expected)
+        if link.mass >= LEAST and link.name not in changed:
+            assert found["mass"] == pytest.approx(expected["mass"], rel=1e-12)
+            assert found["center"] == pytest.approx(expected["center"], abs=1e-12)
+            assert found["inertia"] == pytest.approx(expected["inertia"], rel=1e-9, abs=1e-12)
+        elif link.mass:
+            assert found["mass"] == link.mass
+    for name, joint in ours.joints.items():
+        if joint["child"] not in loose:
+            require_same_joint(joint, reference.joints[name])
+
+
+def links_below_loose_joints(robot: Robot) -> set[str]:
+    """Return the links that the conversion leaves where the model is: it drops floating and planar joints."""
+    loose = [joint.child for joint in robot.joints if joint.type in ("floating", "planar")]
+    for link in loose:
+        loose += [joint.child for joint in robot.joints if joint.parent == link]
+    return set(loose)
+
+
+def require_poses_of_pinocchio(robot: Robot, ours: Read) -> None:
+    """Compare the poses of all links with those of Pinocchio in our URDF, closer than the conversion allows."""
+    pinocchio = pytest.importorskip("pinocchio")
+    model = pinocchio_model(render_urdf(robot))
+    data, floating = model.createData(), {joint.child for joint in robot.joints if joint.type == "floating"}
+    pinocchio.framesForwardKinematics(model, data, pinocchio.neutral(model))
+    for link in robot.links:
+        if link.name != "world" and not floating:
+            frame = data.oMf[model.getFrameId(link.name, pinocchio.FrameType.BODY)]
+            turn = pinocchio.Quaternion(frame.rotation)
+            pose = [*frame.translation, turn.w, turn.x, turn.y, turn.z]
+            require_same_pose(ours.links.get(link.name) or ours.frames[link.name], {"pose": pose}, tolerance=1e-12)
+
+
+def require_same_pose(found: Part, expected: Part, tolerance: float = TOLERANCE) -> None:
+    assert found["pose"][:3] == pytest.approx(expected["pose"][:3], abs=tolerance), found["name"]
+    # A quaternion and its negative are the same turn.
+    product = sum(a * b for a, b in zip(found["pose"][3:], expected["pose"][3:], strict=True))
+    assert abs(product) == pytest.approx(1, abs=tolerance), found["name"]
+
+
+def require_same_joint(found: Part, expected: Part) -> None:
+    assert found["type"] == expected["type"]
+    require_same_pose(found, expected)
+    if found["type"] == "fixed":  # to which the conversion adds an axis
+        return
+    for axis, other in zip(found["axes"], expected["axes"], strict=True):
+        assert axis["xyz"] == pytest.approx(other["xyz"], abs=TOLERANCE)
+        for name in ("lower", "upper", "effort", "velocity", "damping", "friction"):
+            assert axis[name] == pytest.approx(other[name], rel=1e-12), (found["name"], name)
