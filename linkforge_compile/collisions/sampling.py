@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from itertools import islice
 from multiprocessing import get_context
@@ -59,30 +59,35 @@ def find_reasons(
     from linkforge_compile.collisions.collider import Collider
 
     adjacent = adjacent_pairs(scene)
-    found = {pair: Finding(Reason.ADJACENT) for pair in pairs if pair in adjacent}
     others = [pair for pair in pairs if pair not in adjacent]
     collider = Collider(scene, others)
-    by_default = collider.colliding(collider.default_positions())
-    blocks = list(_blocks(settings.samples))
+    blocks = _blocks(settings.samples)
+    counted = list(islice(blocks, COUNTED_BLOCKS))
+    done = sum(block.samples for block in counted)
     begin = monotonic()
-    shares = _shares(collider, others, blocks[:COUNTED_BLOCKS], settings.seed, progress)
-    seconds = (monotonic() - begin) / COUNTED_BLOCKS * len(blocks)
-    found |= {pair: Finding(Reason.DEFAULT, shares[pair]) for pair in by_default}
-    always = (pair for pair, share in shares.items() if share >= ALWAYS_SHARE and pair not in by_default)
-    found |= {pair: Finding(Reason.ALWAYS, shares[pair]) for pair in always}
-    free = [pair for pair in others if not shares[pair] and pair not in by_default]
-    rest = blocks[COUNTED_BLOCKS:] if free else []
-    if settings.jobs > 1 and seconds > WORTH_PROCESSES and rest:
-        searched = _find_in_processes(scene, free, rest, settings)
-    else:
-        searched = ((block, _find(collider, free, block, settings.seed)) for block in rest)
+    shares = _shares(collider, others, counted, settings.seed, progress)
+    seconds = (monotonic() - begin) / done * (settings.samples - done)
+    found = {pair: Finding(Reason.ADJACENT) for pair in pairs if pair in adjacent} | _often(collider, shares)
+    free = [pair for pair, share in shares.items() if not share and pair not in found]
+    searched: Iterable[tuple[Block, set[Pair]]] = ()
+    if free and settings.jobs > 1 and seconds > WORTH_PROCESSES:
+        searched = _find_in_processes(scene, free, blocks, settings)
+    elif free:
+        searched = ((block, _find(collider, free, block, settings.seed)) for block in blocks)
     colliding: set[Pair] = set()
-    done = sum(block.samples for block in blocks[:COUNTED_BLOCKS])
     for block, seen in searched:
         colliding |= seen
         done += block.samples
         progress(done)
     return found | {pair: Finding(Reason.NEVER, 0.0) for pair in free if pair not in colliding}
+
+
+def _often(collider: Collider, shares: Mapping[Pair, float]) -> dict[Pair, Finding]:
+    """Return the pairs that collide in the default pose or in nearly all samples."""
+    collider.select(shares.keys())
+    by_default = collider.colliding(collider.default_positions())
+    found = {pair: Finding(Reason.ALWAYS, share) for pair, share in shares.items() if share >= ALWAYS_SHARE}
+    return found | {pair: Finding(Reason.DEFAULT, shares[pair]) for pair in by_default}
 
 
 class Block(NamedTuple):
@@ -129,17 +134,16 @@ def _find(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) 
 
 
 def _find_in_processes(
-    scene: Scene, pairs: Sequence[Pair], blocks: Sequence[Block], settings: SamplingSettings
+    scene: Scene, pairs: Sequence[Pair], blocks: Iterator[Block], settings: SamplingSettings
 ) -> Iterator[tuple[Block, set[Pair]]]:
-    waiting = iter(blocks)
     # A new process, and not a fork: Pinocchio's threads would not be in the fork.
     pool = ProcessPoolExecutor(settings.jobs, get_context("spawn"), _Worker.start, (scene, pairs, settings.seed))
     try:
-        running = {pool.submit(_Worker.find, block): block for block in islice(waiting, 2 * settings.jobs)}
+        running = {pool.submit(_Worker.find, block): block for block in islice(blocks, 2 * settings.jobs)}
         while running:
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 yield running.pop(future), future.result()
-                running |= {pool.submit(_Worker.find, block): block for block in islice(waiting, 1)}
+                running |= {pool.submit(_Worker.find, block): block for block in islice(blocks, 1)}
     finally:
         pool.shutdown(cancel_futures=True)
 
