@@ -52,6 +52,7 @@ def test_an_example_compiles_to_the_files_next_to_it(spec: Path, tmp_path: Path,
 
 OTHER_FORMATS = [
     ("02_ur5e/ur5e_mocked", "mjcf"),
+    ("02_ur5e/ur5e_mocked", "sdf"),
     ("02_ur5e/ur5e_mocked", "joint_limits"),
     ("02_ur5e/ur5e_mocked", "ros2_controllers"),
     ("02_ur5e/ur5e_mocked", "moveit"),

@@ -98,7 +98,7 @@ def test_quiet_is_silent_when_all_is_well(specs: Path):
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (("--ignore", "LF6O03"), "no diagnostic has the code 'LF6O03'; did you mean 'LF6"),
+        (("--ignore", "LF600O"), "no diagnostic has the code 'LF600O'; did you mean 'LF6"),
         (("--select", "E501"), "no diagnostic has the code 'E501'"),
         (("--ignore", "LF4102"), "LF4102 is an error, which cannot be ignored"),
         (("--ignore", "LF11"), "LF11 stands for errors only, which cannot be ignored"),
