@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
-from linkforge_compile.expand.file_scope import CompileState, FileScope
+from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
 from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expressions import FAULT, Value
@@ -146,7 +146,7 @@ def as_written(node: YamlNode) -> str:
 
 def _scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileScope:
     state = CompileState(spec, loader, Expressions(loader.budget), Unset.NOTE)
-    return FileScope(spec, BoundArguments(Arguments(is_partial=True), sink), state, sink)
+    return FileScope(Use(spec, BoundArguments(Arguments(is_partial=True), sink)), state, sink)
 
 
 def _listed(declaration: Declaration, scope: FileScope, spec: SpecFile, sink: Diagnostics) -> ListedParameter:

@@ -102,5 +102,5 @@ def test_the_workflow_and_the_hooks_of_the_package_pass_and_tell_a_fault(
     capfd.readouterr()
     assert [main(words) for words in ours] == [0, 1, 1, 1, 1, 1]
     (pattern,) = yaml.safe_load((package / "linkforge-matcher.json").read_text())["problemMatcher"][0]["pattern"]
-    told = [found for line in capfd.readouterr().err.splitlines() if (found := re.match(pattern["regexp"], line))]
-    assert {found[pattern["file"]] for found in told} == {"robots/servo.robot.yaml"}
+    lines = [found for line in capfd.readouterr().err.splitlines() if (found := re.match(pattern["regexp"], line))]
+    assert {found[pattern["file"]] for found in lines} == {"robots/servo.robot.yaml"}

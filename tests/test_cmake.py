@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+import yaml
 
 from linkforge_compile import __version__
 from linkforge_compile.cli.targets import name_of
@@ -121,6 +122,8 @@ def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Wo
     assert "GazeboSimSystem" in sim
     assert "<update_rate>15</update_rate>" in sim
     assert not (share / "urdf" / "pan_tilt_sim.srdf").exists()
+    controllers = yaml.safe_load((share / "config" / "pan_tilt_controllers.yaml").read_text("utf-8"))
+    assert controllers["head_controller"]["ros__parameters"]["joints"] == ["pan_turn", "tilt_turn"]
     assert {path.name for path in (share / "robots").iterdir()} == {"pan_tilt.robot.yaml", "servo.robot.yaml"}
     assert str(workspace.source) not in sim
 
@@ -160,9 +163,9 @@ def test_a_fault_stops_the_build_at_its_place_until_it_is_mended(workspace: Work
     right = module.read_text("utf-8")
     urdf = (workspace.build / "pan_tilt.urdf").read_bytes()
     module.write_text(right.replace("child: horn", "child: hron"))
-    said = workspace.make_in_vain()
+    stderr = workspace.make_in_vain()
     line = right[: right.index("child: horn")].count("\n") + 1
-    assert f"{module}:{line}:12: error: no link named 'hron'; did you mean 'horn'? [LF4102]" in said
+    assert f"{module}:{line}:12: error: no link named 'hron'; did you mean 'horn'? [LF4102]" in stderr
     assert (workspace.build / "pan_tilt.urdf").read_bytes() == urdf
     assert "[LF4102]" in workspace.make_in_vain()
     module.write_text(right)
@@ -190,14 +193,14 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "expected"),
     [
         ("FORMAT urdf", "it has no argument 'FORMAT'; it takes PARAMS, VARIANT,"),
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
         ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
         ("BASE loose", "BASE takes fixed or free, found 'loose'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
-        ("FORMATS INSTALL", "nothing is said behind FORMATS"),
+        ("FORMATS INSTALL", "nothing is expected behind FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
         ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
@@ -212,14 +215,14 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ),
     ],
 )
-def test_cmake_configure_reports_wrong_arguments(tmp_path: Path, arguments: str, said: str):
+def test_cmake_configure_reports_wrong_arguments(tmp_path: Path, arguments: str, expected: str):
     run = script(
         tmp_path,
         f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {arguments})",
         f"-DLINKFORGE_EXECUTABLE={program('linkforge')}",
     )
     assert run.returncode != 0
-    assert f"linkforge_add_robot(arm.robot.yaml): {said}" in " ".join(run.stderr.split())
+    assert f"linkforge_add_robot(arm.robot.yaml): {expected}" in " ".join(run.stderr.split())
 
 
 def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
@@ -229,8 +232,8 @@ def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
     text = "\n".join((FIND, *adds, "add_subdirectory(sub)"))
     words = (f"-DLINKFORGE_EXECUTABLE={program('linkforge')}", "-DCMAKE_INSTALL_PREFIX=/prefix")
     beneath.write_text("linkforge_add_robot(../arm.robot.yaml TARGET other INSTALL DESTINATION ./urdf)\n")
-    said = " ".join(script(tmp_path, text, *words).stderr.split())
-    assert "(../arm.robot.yaml): another one installs '/prefix/share/p/urdf/arm.urdf' already; call the files" in said
+    stderr = " ".join(script(tmp_path, text, *words).stderr.split())
+    assert "(../arm.robot.yaml): another one installs '/prefix/share/p/urdf/arm.urdf' already; call the files" in stderr
     beneath.write_text("linkforge_add_robot(../arm.robot.yaml TARGET other INSTALL DESTINATION config)\n")
     assert script(tmp_path, text, *words).returncode == 0
     installs = "".join(path.read_text() for path in (tmp_path / "b").rglob("cmake_install.cmake"))
@@ -238,10 +241,10 @@ def test_two_robots_install_into_files_of_their_own(tmp_path: Path):
         assert f'"${{CMAKE_INSTALL_PREFIX}}/share/p/{folder}" TYPE FILE' in installs
 
 
-@pytest.mark.parametrize("said", ["${none}", '"${none}"'])
-def test_an_empty_variable_has_no_effect(tmp_path: Path, said: str):
+@pytest.mark.parametrize("value", ["${none}", '"${none}"'])
+def test_an_empty_variable_has_no_effect(tmp_path: Path, value: str):
     add = (
-        f'linkforge_add_robot(arm.robot.yaml VARIANT {said} PARAMS ${{none}} NAME "" TARGET "" INSTALL DESTINATION "")'
+        f'linkforge_add_robot(arm.robot.yaml VARIANT {value} PARAMS ${{none}} NAME "" TARGET "" INSTALL DESTINATION "")'
     )
     run = script(tmp_path, f"{FIND}\n{add}", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     assert (run.returncode, run.stderr) == (0, "")
@@ -275,8 +278,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     build = subprocess.run(
         [program("cmake"), "--build", tmp_path / "b"], capture_output=True, text=True, check=True, timeout=60
     )
-    said = build.stdout.splitlines()
-    assert said[said.index("-p") : said.index("-o")] == [
+    lines = build.stdout.splitlines()
+    assert lines[lines.index("-p") : lines.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
         *("--variant", "sim", "--gazebo", "classic", "--installed-in", str(tmp_path / "robots")),
         *("--format", "urdf"),
@@ -295,9 +298,9 @@ def test_cmake_names_files_after_the_spec_as_the_command_does(tmp_path: Path):
     assert made == [name_of(spec) for spec in specs]
 
 
-@pytest.mark.parametrize(("asked", "is_found"), [("", True), (__version__, True), ("0.1", True), ("99", False)])
-def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, asked: str, is_found: bool):
-    find = f'find_package(linkforge_compile {asked} PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
+@pytest.mark.parametrize(("version", "is_found"), [("", True), (__version__, True), ("0.1", True), ("99", False)])
+def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, version: str, is_found: bool):
+    find = f'find_package(linkforge_compile {version} PATHS "{ROOT / "cmake"}" NO_DEFAULT_PATH)'
     text = f'{find}\nmessage("found ${{linkforge_compile_FOUND}} ${{linkforge_compile_VERSION}}")'
     run = script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
     assert (f"found 1 {__version__}" in run.stderr) is is_found
@@ -306,8 +309,8 @@ def test_the_version_that_cmake_finds_is_that_of_the_package(tmp_path: Path, ask
 def test_a_missing_command_is_reported(tmp_path: Path):
     run = script(tmp_path, f'set(ENV{{PATH}} "")\n{FIND}')
     assert run.returncode != 0
-    said = " ".join(run.stderr.split())
-    assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in said
+    stderr = " ".join(run.stderr.split())
+    assert "there is no command 'linkforge' beside it nor on the PATH; set LINKFORGE_EXECUTABLE" in stderr
 
 
 class Fleet:

@@ -36,8 +36,8 @@ def test_every_key_of_an_object_has_a_line(title: str, schema: dict[str, dict[st
 
 
 def test_every_object_has_a_table():
-    asked_for = re.findall(r"<!-- keys of: (.+?)(?:, besides .+)? -->", GENERATE.SOURCE.read_text("utf-8"))
-    assert sorted({*asked_for} - {"every object"}) == sorted(GENERATE.objects())
+    listed = re.findall(r"<!-- keys of: (.+?)(?:, besides .+)? -->", GENERATE.SOURCE.read_text("utf-8"))
+    assert sorted({*listed} - {"every object"}) == sorted(GENERATE.objects())
 
 
 def test_every_link_within_the_page_leads_to_a_heading():

@@ -52,7 +52,10 @@ def test_an_example_compiles_to_the_files_next_to_it(spec: Path, tmp_path: Path,
 
 OTHER_FORMATS = [
     ("02_ur5e/ur5e_mocked", "mjcf"),
+    ("02_ur5e/ur5e_mocked", "sdf"),
     ("02_ur5e/ur5e_mocked", "joint_limits"),
+    ("02_ur5e/ur5e_mocked", "ros2_controllers"),
+    ("02_ur5e/ur5e_mocked", "moveit"),
     ("09_mobile_manipulator/mobile_manipulator", "mjcf"),
     ("09_mobile_manipulator/mobile_manipulator", "joint_limits"),
 ]
@@ -221,8 +224,8 @@ def placed(robot: Robot, state: str, group: str) -> dict[str, np.ndarray]:
     pinocchio = pytest.importorskip("pinocchio")
     model = pinocchio_model(render_urdf(robot))
     q = pinocchio.neutral(model)
-    said = next(each for each in robot.semantic.group_states if (each.name, each.group) == (state, group))
-    for joint, (value,) in said.joint_values.items():
+    group_state = next(each for each in robot.semantic.group_states if (each.name, each.group) == (state, group))
+    for joint, (value,) in group_state.joint_values.items():
         q[model.joints[model.getJointId(joint)].idx_q] = value
     data = model.createData()
     pinocchio.framesForwardKinematics(model, data, q)

@@ -335,15 +335,15 @@ def test_a_thousand_modules_compile(tmp_path: Path):
 
 
 def test_a_fault_in_every_round_of_a_for_is_reported_once_with_a_count(tmp_path: Path):
-    told = refused(lambda _: HEAD + "  l_$(i): {for: {i: 2000}, inertial: {mass: $(-i - 1)}}\n", "LF5006", tmp_path)
-    assert "more like this at the same place" in told
-    assert told.count("[LF5006]") == 3
+    messages = refused(lambda _: HEAD + "  l_$(i): {for: {i: 2000}, inertial: {mass: $(-i - 1)}}\n", "LF5006", tmp_path)
+    assert "more like this at the same place" in messages
+    assert messages.count("[LF5006]") == 3
 
 
 def test_the_fault_of_25000_rounds_is_reported_with_the_number_of_others(tmp_path: Path):
     rounds = "{for: {i: 25000}, inertial: {mass: $(1 / (i - i))}, visual: {sphere: $(-i - 1)}}"
-    told = refused(lambda _: f"{HEAD}  l_$(i): {rounds}\n", "LF3125", tmp_path)
-    assert re.findall(r"\[(LF\d+)\]", told) == ["LF3125", "LF3302"]
+    messages = refused(lambda _: f"{HEAD}  l_$(i): {rounds}\n", "LF3125", tmp_path)
+    assert re.findall(r"\[(LF\d+)\]", messages) == ["LF3125", "LF3302"]
 
 
 def test_a_file_of_comments_that_ignore_is_read_in_time(tmp_path: Path):
@@ -372,12 +372,12 @@ def test_a_urdf_of_comments_is_imported_in_time(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("mesh", "told"), [("m$(i).stl", ["LF6021"] * 3 + ["LF5404"]), ("package://p$(i)/m.stl", ["LF3403", "LF5404"])]
+    ("mesh", "expected"), [("m$(i).stl", ["LF6021"] * 3 + ["LF5404"]), ("package://p$(i)/m.stl", ["LF3403", "LF5404"])]
 )
-def test_many_meshes_that_are_nowhere_are_looked_for_in_time(mesh: str, told: list[str], tmp_path: Path):
+def test_many_meshes_that_are_nowhere_are_looked_for_in_time(mesh: str, expected: list[str], tmp_path: Path):
     meshes = f"{{for: {{i: 6000}}, mesh: {mesh}}}"
     lines = refused(lambda _: f"{HEAD}  l: {{visual: [{meshes}], collision: visual}}\n", "LF5404", tmp_path)
-    assert sorted(re.findall(r"\[(LF\d+)\]", lines)) == sorted(told)
+    assert sorted(re.findall(r"\[(LF\d+)\]", lines)) == sorted(expected)
 
 
 def test_many_groups_of_long_chains_are_checked_in_time(tmp_path: Path):

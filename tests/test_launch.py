@@ -16,6 +16,7 @@ from types import ModuleType
 from typing import NamedTuple
 
 import pytest
+import yaml
 from lxml import etree
 
 from linkforge_compile import CompileError, formats
@@ -99,11 +100,14 @@ def parameter_of(context: object, parameters: object, name: str) -> str:
 
 
 def robot_description_of(context: object, publisher: object) -> str:
-    """Return the parameter that a node of a launch file gets; ROS has no public attribute for it."""
-    (values,) = importlib.import_module("launch_ros.utilities").evaluate_parameters(
-        context, publisher._Node__parameters
-    )
+    """Return the URDF that a node of a launch file gets."""
+    (values,) = evaluated(context, publisher)
     return values["robot_description"]
+
+
+def evaluated(context: object, node: object) -> tuple[object, ...]:
+    """Return the parameters of a node of a launch file; ROS has no public attribute for them."""
+    return importlib.import_module("launch_ros.utilities").evaluate_parameters(context, node._Node__parameters)
 
 
 def box_of(urdf: str) -> str:
@@ -180,20 +184,20 @@ def test_a_fault_fails_the_launch_and_is_reported_at_its_place(ros: Ros, spec: P
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "expected"),
     [
         ({"serial": "A1"}, "<launch argument>:1:13: error: parameter 'reach'"),
         ({"serial": "A1", "reach": 3}, "<launch file>:1:8: error: parameter 'reach'"),
     ],
 )
 def test_a_wrong_value_is_reported_in_the_form_of_a_launch_argument(
-    ros: Ros, spec: Path, given: dict[str, object], said: str
+    ros: Ros, spec: Path, given: dict[str, object], expected: str
 ):
     robot = ros.ours.RobotDescription(spec, given, argument_prefix="left_")
     failure = importlib.import_module("launch.substitutions").SubstitutionFailure
     with pytest.raises(failure) as caught:
         robot.urdf.perform(launched(ros, robot, left_reach="3 m"))
-    assert said in str(caught.value)
+    assert expected in str(caught.value)
     assert "command line" not in str(caught.value)
 
 
@@ -236,12 +240,12 @@ def test_a_launch_compiles_once_and_logs_diagnostics(
             robot.srdf.perform(context)
             robot.urdf.perform(context)
     assert len(compiled) == 1
-    told = {record.levelname: record.message for record in caplog.records}
-    assert len(caplog.records) == len(told) == 2, caplog.messages
-    assert "arm.robot.yaml:14:" in told["WARNING"]
-    assert "[LF7002]" in told["WARNING"]
-    assert "note: " in told["INFO"]
-    assert ": note: " not in told["WARNING"]
+    records = {record.levelname: record.message for record in caplog.records}
+    assert len(caplog.records) == len(records) == 2, caplog.messages
+    assert "arm.robot.yaml:14:" in records["WARNING"]
+    assert "[LF7002]" in records["WARNING"]
+    assert "note: " in records["INFO"]
+    assert ": note: " not in records["WARNING"]
     robot.urdf.perform(launched(ros, robot))
     assert len(compiled) == 2, "another launch is told as well"
 
@@ -413,3 +417,17 @@ def test_the_launch_file_of_the_examples_describes_its_robot(ros: Ros, tmp_path:
     urdf = robot_description_of(context, publisher)
     assert '<origin xyz="0 -0.02 0.1"' in urdf
     assert 'effort="2.5"' in urdf
+
+
+def test_the_controllers_of_the_examples_are_those_of_the_launched_robot(
+    ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    share = tmp_path / "share" / "pan_tilt_description"
+    shutil.copytree(ROOT / "examples" / "11_ros2_package", share)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    file = runpy.run_path(str(share / "launch" / "control.launch.py"))
+    *arguments, _, manager, _ = file["generate_launch_description"]().entities
+    description, controllers = evaluated(launch_with(ros, arguments), manager)
+    assert "mock_components/GenericSystem" in description["robot_description"]
+    parameters = yaml.safe_load(Path(controllers).read_text())
+    assert parameters["head_controller"]["ros__parameters"]["joints"] == ["pan_turn", "tilt_turn"]

@@ -81,7 +81,7 @@ def test_a_refused_path_is_shown_with_its_target_and_readable_folders(tmp_path: 
 
 
 @pytest.mark.parametrize(
-    ("file", "told"),
+    ("file", "expected"),
     [
         ("../self/part.robot.yaml", "it leads to TMP/self/part.robot.yaml"),
         ("TMP/self/part.robot.yaml", "it leads to TMP/self/part.robot.yaml"),
@@ -93,7 +93,7 @@ def test_a_refused_path_is_shown_with_its_target_and_readable_folders(tmp_path: 
         ("exe.robot.yaml", "the link 'TMP/cell/exe.robot.yaml' leads out"),
     ],
 )
-def test_what_is_refused_tells_of_no_link_where_it_leads(file: str, told: str, tmp_path: Path):
+def test_what_is_refused_tells_of_no_link_where_it_leads(file: str, expected: str, tmp_path: Path):
     """`/proc/self/exe` would tell a stranger of a server's folders, be it his link or one outside of his."""
     cell = tmp_path / "cell"
     for folder in (tmp_path / "secret", cell / "deep"):
@@ -108,7 +108,7 @@ def test_what_is_refused_tells_of_no_link_where_it_leads(file: str, told: str, t
         link.symlink_to(target)
     [diagnostic] = compile_file(using(cell / "cell.robot.yaml", file.replace("TMP", str(tmp_path)))).diagnostics
     assert diagnostic.code.id == "LF3401"
-    assert diagnostic.notes[0].message == told.replace("TMP", str(tmp_path)).replace("/", os.sep)
+    assert diagnostic.notes[0].message == expected.replace("TMP", str(tmp_path)).replace("/", os.sep)
     assert not any("secret" in note.message or "python" in note.message for note in diagnostic.notes)
 
 
@@ -150,9 +150,9 @@ def test_what_may_not_be_read_is_reported_at_its_place(section: str, code: str, 
     """The rest is reported as usual."""
     text = f"linkforge: 1\nname: cell\nbogus: 1\n{section}\n".replace("CLOSED", str(closed))
     spec = written(closed.parent / "cell" / "cell.robot.yaml", text)
-    told = check_file(spec, allow_outside=allow_outside).diagnostics
-    assert "LF2101" in {one.code.id for one in told}
-    [refused] = [one for one in told if one.code.id != "LF2101"]
+    diagnostics = check_file(spec, allow_outside=allow_outside).diagnostics
+    assert "LF2101" in {one.code.id for one in diagnostics}
+    [refused] = [one for one in diagnostics if one.code.id != "LF2101"]
     assert refused.span is not None
     assert refused.span.line >= 4
     assert allow_outside or refused.code.id == code
@@ -242,16 +242,16 @@ def test_the_search_for_a_package_that_is_nowhere_leaves_by_no_link(
 MESH_OF_SECRET = "links: {base: {visual: {mesh: 'package://secret/part.stl'}}}\n"
 
 
-@pytest.mark.parametrize(("allow_outside", "told"), [(False, ["LF3005"]), (True, ["LF6021"])])
-def test_a_manifest_that_is_a_link_out_names_no_package(allow_outside: bool, told: list[str], tmp_path: Path):
+@pytest.mark.parametrize(("allow_outside", "expected"), [(False, ["LF3005"]), (True, ["LF6021"])])
+def test_a_manifest_that_is_a_link_out_names_no_package(allow_outside: bool, expected: list[str], tmp_path: Path):
     """Otherwise `package://` would reveal whether that file exists and what it contains."""
     written(tmp_path / "far" / "package.xml", SECRET)
     spec = using(tmp_path / "cell" / "cell.robot.yaml", "package://secret/part.robot.yaml")
     written(spec.parent / "part.robot.yaml", f"linkforge: 1\nname: part\n{MESH_OF_SECRET}")
     (spec.parent / "package.xml").symlink_to(tmp_path / "far" / "package.xml")
-    assert codes(compile_file(spec, allow_outside=allow_outside)) == told
+    assert codes(compile_file(spec, allow_outside=allow_outside)) == expected
     mesh = written(spec.parent / "mesh.robot.yaml", f"linkforge: 1\nname: mesh\n{MESH_OF_SECRET}")
-    assert codes(compile_file(mesh, allow_outside=allow_outside)) == [one for one in told if allow_outside]
+    assert codes(compile_file(mesh, allow_outside=allow_outside)) == [one for one in expected if allow_outside]
 
 
 @pytest.mark.parametrize("link", ["secret", "hands/secret", "hands"])

@@ -18,7 +18,7 @@ SEVERITIES = {"E": Severity.ERROR, "W": Severity.WARNING, "N": Severity.NOTE}
 EXPECTATION = re.compile(r"(?P<up>\^*)(?P<severity>[EWN])\[(?P<code>LF\d{4})\]:(?P<column>\d+) (?P<message>.+)")
 
 
-class Told(NamedTuple):
+class Finding(NamedTuple):
     """A diagnostic as a person would write it down."""
 
     file: str
@@ -29,7 +29,7 @@ class Told(NamedTuple):
     message: str
 
 
-def expected(file: str, text: str) -> Iterator[Told]:
+def expected(file: str, text: str) -> Iterator[Finding]:
     for number, line in enumerate(text.splitlines(), start=1):
         _, marker, comment = line.partition("# ")
         while marker and not EXPECTATION.match(comment):
@@ -37,7 +37,7 @@ def expected(file: str, text: str) -> Iterator[Told]:
         for part in comment.split(" ## ") if marker else ():
             match = EXPECTATION.fullmatch(part.strip())
             assert match, f"{file}:{number}: no expectation: {part}"
-            yield Told(
+            yield Finding(
                 file,
                 number - len(match["up"]),
                 int(match["column"]),
@@ -47,10 +47,10 @@ def expected(file: str, text: str) -> Iterator[Told]:
             )
 
 
-def told(compilation: Compilation | Import) -> set[Told]:
+def findings_of(compilation: Compilation | Import) -> set[Finding]:
     assert all(diagnostic.span for diagnostic in compilation.diagnostics), "a spec's fault without a place"
     return {
-        Told(
+        Finding(
             Path(diagnostic.span.file.name).name,
             diagnostic.span.line,
             diagnostic.span.column,
@@ -68,12 +68,12 @@ def check_case(path: Path) -> None:
     compilation = compile_file(path, parameters=[])  # as the command line does, which the cases speak of
     files = {path, *compilation.files}
     wanted = {one for file in files for one in expected(file.name, file.read_text("utf-8", errors="replace"))}
-    assert told(compilation) == wanted
+    assert findings_of(compilation) == wanted
 
 
 def compile_yaml(text: str, **options: object) -> Compilation:
     """Compile a spec in a test, compare its diagnostics with the expected ones, and return the compilation."""
     text = dedent(text).lstrip("\n")
     compilation = compile_text(text, name="test.robot.yaml", **options)  # type: ignore[arg-type]  # passed on as they are
-    assert told(compilation) == set(expected("test.robot.yaml", text))
+    assert findings_of(compilation) == set(expected("test.robot.yaml", text))
     return compilation

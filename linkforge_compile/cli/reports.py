@@ -61,14 +61,7 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
         default=[],
         help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
     )
-    group.add_argument(
-        "--werror",
-        dest="errors",
-        action="append_const",
-        const=ANY_CODE,
-        default=[],
-        help="report warnings as errors",
-    )
+    _add_raising_option(group, "--werror", ANY_CODE, "report warnings as errors")
     group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     group.add_argument(
         "--color",
@@ -80,13 +73,13 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
 
 def add_strict_option(parser: argparse.ArgumentParser) -> None:
     """Add `--strict`, for commands with `add_report_options` that are about outputs."""
-    parser.add_argument(
-        "--strict",
-        dest="errors",
-        action="append_const",
-        const=OUTPUT_CODES,
-        help="fail, and write nothing, if an output cannot hold a part of the robot: warnings LF7 are errors",
-    )
+    about = "fail, and write nothing, if an output cannot hold a part of the robot: warnings LF7 are errors"
+    _add_raising_option(parser, "--strict", OUTPUT_CODES, about)
+
+
+def _add_raising_option(group: argparse._ActionsContainer, option: str, codes: str, about: str) -> None:
+    """Add an option that makes errors of warnings whose codes begin so."""
+    group.add_argument(option, dest="errors", action="append_const", const=codes, default=[], help=about)
 
 
 def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> tuple[Diagnostic, ...]:

@@ -114,6 +114,8 @@ def targets_of(name: str, outputs: Sequence[str], chosen: Sequence[str] = ()) ->
     if not is_folder_of_outputs(output, chosen):
         return Targets({_format_of_file(output, _only(chosen)): Path(output)})
     written = [one for one in formats.FORMATS if (one.name in chosen if chosen else one.is_default)]
+    if chosen and len(written) == 1 and written[0].files and output.endswith(written[0].suffix):
+        return Targets({written[0].name: Path(output)})  # such as arm_moveit_config, not arm_moveit_config/
     paths = {one.name: Path(output, f"{name}{one.suffix}") for one in written}
     return Targets(paths, is_requested=bool(chosen))
 

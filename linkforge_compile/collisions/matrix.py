@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.collisions.meshes import find_meshes
 from linkforge_compile.collisions.modules import KnownModules, is_own
 from linkforge_compile.collisions.pairs import Names, Reason, comparable_pairs
-from linkforge_compile.collisions.sampling import Progress, SamplingSettings, find_reasons
+from linkforge_compile.collisions.sampling import ALWAYS_SHARE, Finding, Progress, SamplingSettings, find_reasons
 from linkforge_compile.collisions.scene import make_scene
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import CollisionPair
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics.codes.collisions import HIDDEN_COLLISIONS
 
 
 class Matrix(NamedTuple):
@@ -30,8 +31,8 @@ def find_matrix(
 ) -> Matrix | None:
     """Sample a robot that has no errors; None if a shape is unknown, which is reported.
 
-    A pair that its file declares with a reason of its own stays. A module that declares pairs knows itself: pairs
-    inside it are not sampled, unless with `is_all`.
+    A pair that its file declares with a reason of its own stays, and one that it enables is not disabled. A module
+    that declares pairs knows itself: pairs inside it are not sampled, unless with `is_all`.
     """
     paths = find_meshes(robot, sink)
     if sink.has_errors:
@@ -39,25 +40,34 @@ def find_matrix(
     scene = make_scene(robot, paths)
     names = _Names(robot)
     declared = {names.ordered(pair.link1, pair.link2): pair for pair in robot.semantic.disabled_collisions}
+    enabled = {names.ordered(pair.link1, pair.link2) for pair in robot.semantic.enabled_collisions}
     modules = KnownModules(robot)
     comparable = {
         names.ordered(scene[one].link, scene[other].link): (one, other) for one, other in comparable_pairs(scene)
     }
-    sampled = {
-        pair: places
-        for pair, places in comparable.items()
-        if not _is_settled(declared.get(pair)) and (is_all or not modules.hold(*pair))
-    }
-    reasons = find_reasons(scene, sampled.values(), settings, progress)
-    found = {pair: str(reasons[places]) for pair, places in sampled.items() if places in reasons}
+    unknown = [
+        pair for pair in comparable if not _is_settled(declared.get(pair)) and (is_all or not modules.hold(*pair))
+    ]
+    sampled = [pair for pair in unknown if pair not in enabled]
+    findings = find_reasons(scene, [comparable[pair] for pair in sampled], settings, progress)
+    found = {pair: findings[comparable[pair]] for pair in sampled if comparable[pair] in findings}
+    sink.report_all(_hidden_collisions(robot, found))
     with_shapes = {body.link for body in scene if body.shapes}
     kept = {
         pair: each.reason
         for pair, each in declared.items()
-        if is_own(each) and pair not in sampled and (_is_settled(each) or with_shapes.issuperset(pair))
+        if is_own(each) and pair not in unknown and (_is_settled(each) or with_shapes.issuperset(pair))
     }
-    disabled = dict(sorted((found | kept).items(), key=lambda item: names.order(item[0])))
-    return Matrix(disabled, tuple(sorted((pair for pair in sampled if pair not in found), key=names.order)))
+    reasons = {pair: str(finding.reason) for pair, finding in found.items()} | kept
+    disabled = {pair: reasons[pair] for pair in sorted(reasons, key=names.order)}
+    return Matrix(disabled, tuple(sorted((pair for pair in unknown if pair not in found), key=names.order)))
+
+
+def _hidden_collisions(robot: Robot, found: Mapping[Names, Finding]) -> Iterator[Diagnostic]:
+    """Yield the pairs whose check is off because of the default pose, although most samples are free."""
+    for (one, other), finding in found.items():
+        if finding.reason == Reason.DEFAULT and finding.share is not None and finding.share < ALWAYS_SHARE:
+            yield HIDDEN_COLLISIONS.at(robot.source, "name", pair=f"{one} and {other}")
 
 
 def _is_settled(pair: CollisionPair | None) -> bool:

@@ -134,7 +134,7 @@ def _edits(
         host, names = _host(pair, written)
         (new if host is None else added[host])[names] = reason
     for one, pairs, more in zip(written, kept, added, strict=True):
-        if more or len(pairs) < len(one.pairs) or any(_key(pair, pairs) != pair.reason for pair in one.pairs):
+        if pairs | more != {(pair.link1, pair.link2): pair.reason for pair in one.pairs}:
             if any(pair.extra_attributes or pair.extra_elements for pair in one.pairs):
                 raise CannotRewriteError(f"a pair of '{one.entry.name}' has raw XML")
             yield text.replace(one.entry, entry_lines(pairs | more))
@@ -142,10 +142,6 @@ def _edits(
         last = written[-1].entry if written else section
         indent = text.indent(last) if written else text.indent(section) + _INDENT
         yield text.insert_below(last, [f"{indent}{line}" for line in entry_lines(new)])
-
-
-def _key(pair: CollisionPair, pairs: Mapping[Names, str | None]) -> str | None:
-    return pairs.get((pair.link1, pair.link2))
 
 
 def _kept(one: _Written, left: dict[Names, str | None]) -> dict[Names, str | None]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from itertools import islice
 from multiprocessing import get_context
@@ -41,9 +41,16 @@ class SamplingSettings(NamedTuple):
     jobs: int = 1
 
 
+class Finding(NamedTuple):
+    """Why a pair needs no check, and the share of the counted samples in which it collides; None if not sampled."""
+
+    reason: Reason
+    share: float | None = None
+
+
 def find_reasons(
     scene: Scene, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
-) -> dict[Pair, Reason]:
+) -> dict[Pair, Finding]:
     """Return why pairs need no check; those that collide in some samples, but not in all, are not returned.
 
     As in MoveIt's Setup Assistant, the first of the reasons that holds is taken: adjacent, in collision in the
@@ -52,37 +59,35 @@ def find_reasons(
     from linkforge_compile.collisions.collider import Collider
 
     adjacent = adjacent_pairs(scene)
-    reasons = {pair: Reason.ADJACENT for pair in pairs if pair in adjacent}
-    collider = Collider(scene, [pair for pair in pairs if pair not in adjacent])
+    others = [pair for pair in pairs if pair not in adjacent]
+    collider = Collider(scene, others)
+    blocks = _blocks(settings.samples)
+    counted = list(islice(blocks, COUNTED_BLOCKS))
+    done = sum(block.samples for block in counted)
+    begin = monotonic()
+    shares = _shares(collider, others, counted, settings.seed, progress)
+    seconds = (monotonic() - begin) / done * (settings.samples - done)
+    found = {pair: Finding(Reason.ADJACENT) for pair in pairs if pair in adjacent} | _often(collider, shares)
+    free = [pair for pair, share in shares.items() if not share and pair not in found]
+    searched: Iterable[tuple[Block, set[Pair]]] = ()
+    if free and settings.jobs > 1 and seconds > WORTH_PROCESSES:
+        searched = _find_in_processes(scene, free, blocks, settings)
+    elif free:
+        searched = ((block, _find(collider, free, block, settings.seed)) for block in blocks)
+    colliding: set[Pair] = set()
+    for block, seen in searched:
+        colliding |= seen
+        done += block.samples
+        progress(done)
+    return found | {pair: Finding(Reason.NEVER, 0.0) for pair in free if pair not in colliding}
+
+
+def _often(collider: Collider, shares: Mapping[Pair, float]) -> dict[Pair, Finding]:
+    """Return the pairs that collide in the default pose or in nearly all samples."""
+    collider.select(shares.keys())
     by_default = collider.colliding(collider.default_positions())
-    reasons |= dict.fromkeys(by_default, Reason.DEFAULT)
-    unknown = [pair for pair in pairs if pair not in reasons]
-    return reasons | _sample(scene, collider, unknown, settings, progress)
-
-
-def _sample(
-    scene: Scene, collider: Collider, pairs: Collection[Pair], settings: SamplingSettings, progress: Progress
-) -> dict[Pair, Reason]:
-    blocks = list(_blocks(settings.samples))
-    done, counts, begin = 0, Counter[Pair](), monotonic()
-    for block in blocks[:COUNTED_BLOCKS]:
-        counts += _count(collider, pairs, block, settings.seed)
-        done += block.samples
-        progress(done)
-    reasons = {pair: Reason.ALWAYS for pair, count in counts.items() if count >= ALWAYS_SHARE * done}
-    free = [pair for pair in pairs if pair not in counts]
-    rest = blocks[COUNTED_BLOCKS:]
-    expected = (monotonic() - begin) * len(rest) / COUNTED_BLOCKS
-    if settings.jobs > 1 and expected > WORTH_PROCESSES:
-        found = _find_in_processes(scene, free, rest, settings)
-    else:
-        found = ((block, _find(collider, free, block, settings.seed)) for block in rest)
-    seen: set[Pair] = set()
-    for block, colliding in found:
-        seen |= colliding
-        done += block.samples
-        progress(done)
-    return reasons | dict.fromkeys((pair for pair in free if pair not in seen), Reason.NEVER)
+    found = {pair: Finding(Reason.ALWAYS, share) for pair, share in shares.items() if share >= ALWAYS_SHARE}
+    return found | {pair: Finding(Reason.DEFAULT, shares[pair]) for pair in by_default}
 
 
 class Block(NamedTuple):
@@ -97,16 +102,21 @@ def _blocks(samples: int) -> Iterator[Block]:
         yield Block(number, min(BLOCK, samples - start))
 
 
-def _count(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) -> Counter[Pair]:
-    """Return in how many samples of a block each pair collides."""
+def _shares(
+    collider: Collider, pairs: Collection[Pair], blocks: Collection[Block], seed: int, progress: Progress
+) -> dict[Pair, float]:
+    """Return in which share of the samples of blocks each pair collides."""
     import numpy as np
 
     collider.select(frozenset(pairs))
-    generator = np.random.default_rng((seed, block.number))
-    counts = Counter[Pair]()
-    for _ in range(block.samples):
-        counts.update(collider.colliding(collider.random_positions(generator)))
-    return counts
+    counts, done = Counter[Pair](), 0
+    for block in blocks:
+        generator = np.random.default_rng((seed, block.number))
+        for _ in range(block.samples):
+            counts.update(collider.colliding(collider.random_positions(generator)))
+        done += block.samples
+        progress(done)
+    return {pair: counts[pair] / done for pair in pairs}
 
 
 def _find(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) -> set[Pair]:
@@ -124,17 +134,16 @@ def _find(collider: Collider, pairs: Collection[Pair], block: Block, seed: int) 
 
 
 def _find_in_processes(
-    scene: Scene, pairs: Sequence[Pair], blocks: Sequence[Block], settings: SamplingSettings
+    scene: Scene, pairs: Sequence[Pair], blocks: Iterator[Block], settings: SamplingSettings
 ) -> Iterator[tuple[Block, set[Pair]]]:
-    waiting = iter(blocks)
     # A new process, and not a fork: Pinocchio's threads would not be in the fork.
     pool = ProcessPoolExecutor(settings.jobs, get_context("spawn"), _Worker.start, (scene, pairs, settings.seed))
     try:
-        running = {pool.submit(_Worker.find, block): block for block in islice(waiting, 2 * settings.jobs)}
+        running = {pool.submit(_Worker.find, block): block for block in islice(blocks, 2 * settings.jobs)}
         while running:
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 yield running.pop(future), future.result()
-                running |= {pool.submit(_Worker.find, block): block for block in islice(waiting, 1)}
+                running |= {pool.submit(_Worker.find, block): block for block in islice(blocks, 1)}
     finally:
         pool.shutdown(cancel_futures=True)
 

@@ -118,8 +118,8 @@ class Name(Text):
 class Reference(Text):
     """The name of another element, with the prefix; a sequence of names, or a mapping by names.
 
-    `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, frame or topic. Absolute
-    topics take no prefix.
+    `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, sensor, frame or topic.
+    Absolute topics take no prefix.
     """
 
     to: str = ""

@@ -1,5 +1,12 @@
 """Turn a SpecFile, its parameters and the files it uses into a tree of Instances with every expression computed.
 
+`expand_uses` does this for each use of a file. It binds the arguments of the use to the file's parameters in a
+FileScope, whose Evaluator computes the expressions, `for` and `when` of the tree; it merges `defaults`; it reads the
+entries of `modules`, whose arguments the next use computes in this scope; and it applies the overrides that the uses
+around it have for this one, which may remove or change entries. Then it expands the file of each entry. A node that
+is computed or patched keeps in its span how it came about. Faults become YamlFaults in the tree and are reported to
+the sink.
+
 What each module knows; it imports only those above it:
 
     instance          the Instance that a use of a file becomes
@@ -9,11 +16,12 @@ What each module knows; it imports only those above it:
     arguments         what the user sets -> Arguments; the variants of a file
     parameters        a declaration -> type and constraints, which convert a value or refuse it
     parameter_values  declaration, arguments, variants -> the value in force
-    file_scope        one use of a file -> the names, values and functions that its expressions know
-    defaults          objects in their long form; `defaults` -> merged into links, joints and sensors
+    long_forms        an object in a short form -> in its long form; a frame -> a link and a joint
+    defaults          `defaults` -> merged into links, joints and sensors
     override          a patch and a tree -> the patched tree
     deletions         a tree and an override -> what else goes with deleted links; why each name is gone
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
+    file_scope        one use of a file -> the names, values and functions that its expressions know
     expand_uses       all of this for a file, then for each file that it uses
 """
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from pathlib import Path
+from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
@@ -13,16 +12,14 @@ from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_
 from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
-from linkforge_compile.expand.file_scope import CompileState, FileScope
+from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
 from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
 from linkforge_compile.expand.modules import ModuleEntry, apply_override, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.expressions import FAULT, Fault
 from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
 from linkforge_compile.load.locations import (
     SPEC_ENDINGS,
     PathSite,
-    Writers,
     is_xacro,
     locate,
     mesh_base,
@@ -50,44 +47,10 @@ def expand_uses(
         # It may have set parameters, so missing ones are not reported.
         arguments = replace(arguments, is_partial=True)
     state = CompileState(spec, loader, Expressions(loader.budget), unset, variant)
-    return _Expansion(state, sink).expand(_Use(spec, BoundArguments(arguments, sink)))
+    return _Expander(state, sink).expand(Use(spec, BoundArguments(arguments, sink)))
 
 
-@dataclass(frozen=True)
-class _Use:
-    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
-
-    spec: SpecFile
-    bound: BoundArguments
-    entry: ModuleEntry | None = None
-    outer: _Use | None = None
-    outer_writers: Writers = field(default_factory=dict)
-
-    @property
-    def chain(self) -> tuple[_Use, ...]:
-        """The use itself and those around it, that of the compiled file last."""
-        return (self, *self.outer.chain) if self.outer else (self,)
-
-    @property
-    def prefix(self) -> str | Fault:
-        """The full prefix of the names of the file; FAULT if a part of it is faulty."""
-        if self.entry is None or self.outer is None:
-            return ""
-        outer = self.outer.prefix
-        return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
-
-    @property
-    def include_stack(self) -> tuple[Span, ...]:
-        """The `use` of this file and of those around it, the innermost first."""
-        return tuple(use.bound.use for use in self.chain if use.bound.use)
-
-    def writers(self, packages: Mapping[str, Path]) -> Writers:
-        """Return the files that may have written a path here: its own, which know these packages, and those around."""
-        files = {self.spec.file: self.spec, **self.spec.included}
-        return {**self.outer_writers, **{file: (part, packages) for file, part in files.items()}}
-
-
-class _Expansion:
+class _Expander:
     """One compile: its shared state, and the files used so far."""
 
     def __init__(self, state: CompileState, sink: Diagnostics) -> None:
@@ -95,13 +58,13 @@ class _Expansion:
         self._sink = sink
         self._used: set[SourceFile] = set()
 
-    def expand(self, use: _Use) -> Instance:
+    def expand(self, use: Use) -> Instance:
         """Expand one use of one file, and all that it uses."""
         if use.spec.file in self._used:
             self._state.expressions.charge_copy(use.spec.tree, use.bound.use or use.spec.file.whole)
         self._used.add(use.spec.file)
-        sink, stack = with_use_trace(self._sink, use.include_stack), use.include_stack
-        scope = FileScope(use.spec, use.bound, self._state, sink, prefix=use.prefix, include_stack=stack)
+        stack = use.include_stack
+        scope = FileScope(use, self._state, with_use_trace(self._sink, stack))
         scope.check_parameters()
         tree, defaults = _robot_tree(use.spec, scope.evaluator)
         entries = tuple(read_modules(use.spec, scope.evaluator, stack))
@@ -133,7 +96,7 @@ class _Expansion:
             defaults=defaults,
         )
 
-    def _expand_module(self, entry: ModuleEntry, outer: _Use, scope: FileScope) -> Instance:
+    def _expand_module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:
         if entry.use is None:
             return _unread(entry)
         sink = scope.evaluator.sink
@@ -141,7 +104,7 @@ class _Expansion:
         if spec is None:
             return _unread(entry)
         bound = BoundArguments(arguments, sink, entry.use.span)
-        use = _Use(spec, bound, entry, outer, outer.writers(scope.packages))
+        use = Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
@@ -178,7 +141,7 @@ class _Expansion:
         texts = xacro_arguments(entry.arguments, sink)
         return open_xacro(replace(use, arguments=texts, used_elsewhere=used), loader, sink), Arguments()
 
-    def _is_bounded(self, use: _Use, sink: Diagnostics) -> bool:
+    def _is_bounded(self, use: Use, sink: Diagnostics) -> bool:
         """Whether a use is neither circular nor too deep; reports why not."""
         files = [other.spec.file for other in use.chain]
         if use.spec.file in files[1:]:
@@ -208,7 +171,7 @@ def _unread(entry: ModuleEntry) -> Instance:
     return Instance(entry.name, None, entry.ref, entry.prefix if entry.is_named else "")
 
 
-def _cycle(chain: tuple[_Use, ...], compiled: SpecFile) -> Diagnostic:
+def _cycle(chain: tuple[Use, ...], compiled: SpecFile) -> Diagnostic:
     """Return the diagnostic for a chain of uses, the innermost first, that ends in the file it starts with."""
     path = [name_from(use.spec, compiled) for use in reversed(chain)]
     notes = [

@@ -6,8 +6,8 @@ import math
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
@@ -25,6 +25,7 @@ from linkforge_compile.expand.arguments import Unset, Variants
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.instance import NameReference
+from linkforge_compile.expand.modules import ModuleEntry
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
 from linkforge_compile.expand.values import Setting, plain_value
@@ -43,7 +44,7 @@ from linkforge_compile.expressions import (
     parse_template,
 )
 from linkforge_compile.load.loader import Loader, SpecFile
-from linkforge_compile.load.locations import PathSite, from_base, locate, mesh_base, rebased
+from linkforge_compile.load.locations import PathSite, Writers, from_base, locate, mesh_base, rebased
 from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
@@ -69,29 +70,52 @@ class CompileState:
     variant: str | None = None
 
 
+@dataclass(frozen=True)
+class Use:
+    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
+
+    spec: SpecFile
+    bound: BoundArguments
+    entry: ModuleEntry | None = None
+    outer: Use | None = None
+    outer_writers: Writers = field(default_factory=dict)
+
+    @property
+    def chain(self) -> tuple[Use, ...]:
+        """The use itself and those around it, that of the compiled file last."""
+        return (self, *self.outer.chain) if self.outer else (self,)
+
+    @cached_property
+    def prefix(self) -> str | Fault:
+        """The full prefix of the names of the file; FAULT if a part of it is faulty."""
+        if self.entry is None or self.outer is None:
+            return ""
+        outer = self.outer.prefix
+        return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
+
+    @cached_property
+    def include_stack(self) -> tuple[Span, ...]:
+        """The `use` of this file and of those around it, the innermost first."""
+        return tuple(use.bound.use for use in self.chain if use.bound.use)
+
+    def writers(self, packages: Mapping[str, Path]) -> Writers:
+        """Return the files that may have written a path here: its own, which know these packages, and those around."""
+        files = {self.spec.file: self.spec, **self.spec.included}
+        return {**self.outer_writers, **{file: (part, packages) for file, part in files.items()}}
+
+
 class FileScope:
     """The names of one use of a file; each value is computed when first used, in any order, and once."""
 
-    def __init__(
-        self,
-        spec: SpecFile,
-        bound: BoundArguments,
-        state: CompileState,
-        sink: Diagnostics,
-        *,
-        prefix: str | Fault = "",
-        include_stack: tuple[Span, ...] = (),
-    ) -> None:
-        """`prefix` is the full one, FAULT if a part of it is; `include_stack` are the uses that led to the file."""
-        self._spec = spec
+    def __init__(self, use: Use, state: CompileState, sink: Diagnostics) -> None:
+        """Declare the names; nothing is computed or looked up yet."""
+        spec, bound = use.spec, use.bound
+        self._use = use
         self._path_base = "" if spec.folder is None else mesh_base(spec, state.compiled)
-        self._bound = bound
         self._loader = state.loader
         self._packages: dict[str, Path] | None = None
         self._reports_unset = state.unset is Unset.ERROR or bound.use is not None
         self._variants = Variants() if bound.use else Variants.of(spec, state.variant)
-        self._prefix = prefix
-        self._include_stack = include_stack
         self._sink = sink
         self._unset: list[Declaration] = []
         self.declared = declarations(spec.tree.get("parameters"))
@@ -101,7 +125,7 @@ class FileScope:
         values: dict[str, Value | Fault | Lazy] = {
             "name": Lazy(self._name, spec.file.whole),
             "standalone": bound.use is None,
-            "prefix": prefix,
+            "prefix": use.prefix,
             **self._names["variables"],
             **self._names["data"],
             **self._names["parameters"],
@@ -116,30 +140,31 @@ class FileScope:
         """The package folders that the file and those around it declare."""
         if self._packages is None:
             # Set before the declarations are computed, because computing them may look for packages.
-            self._packages = dict(self._spec.packages)
+            self._packages = dict(self._use.spec.packages)
             self._packages.update(self._declared_packages())
         return self._packages
 
     def site(self, text: str, where: Span) -> PathSite:
         """Return the site of a path that this file or one that it includes wrote."""
-        return PathSite(text, where, self._spec.part_at(where), self.packages)
+        return PathSite(text, where, self._use.spec.part_at(where), self.packages)
 
     def _find_path(self, text: str, where: Span, sink: Diagnostics) -> Value | Fault:
         target = locate(self.site(text, where), self._loader, sink)
         return FAULT if target is None else str(target.path.absolute())
 
     def _with_prefix(self, kind: str, name: str, where: Span, _sink: Diagnostics) -> Value | Fault:
-        self.references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._include_stack)))
-        return FAULT if isinstance(self._prefix, Fault) else self._prefix + name
+        self.references.append(NameReference(kind, name, SourceRef(YamlFault(where), None, self._use.include_stack)))
+        prefix = self._use.prefix
+        return FAULT if isinstance(prefix, Fault) else prefix + name
 
     def _declared_packages(self) -> dict[str, Path]:
-        section = self._spec.tree.get("packages")
+        section = self._use.spec.tree.get("packages")
         shape = shapes().under("packages")
         declared = expand_node(section, self.evaluator, shape, key="packages") if section else None
         folders = {}
         for entry in declared if isinstance(declared, YamlMap) else ():
             if isinstance(entry.value, YamlScalar):
-                folder, target = self._spec.part_at(entry.value.span).folder, entry.value.text
+                folder, target = self._use.spec.part_at(entry.value.span).folder, entry.value.text
                 if folder is not None or Path(target).is_absolute():
                     folders[entry.name] = follow(folder or Path(), target)
                     self._check_package(entry.name, folders[entry.name], entry.value)
@@ -154,11 +179,11 @@ class FileScope:
     def check_parameters(self) -> None:
         """Report what is wrong with the parameters and their arguments, used or not."""
         if not self._is_faulty("parameters", "include"):
-            self._bound.report_unknown(self.declared, self._variants, self._spec)
+            self._use.bound.report_unknown(self.declared, self._variants, self._use.spec)
         for name in (*self._names["parameters"], *self._names["data"]):
             self.evaluator.scope.lookup(name, self._sink)
-        if self._unset and self._reports_unset and not self._bound.arguments.is_partial:
-            report_unset(self._unset, self._bound, self._variants)
+        if self._unset and self._reports_unset and not self._use.bound.arguments.is_partial:
+            report_unset(self._unset, self._use.bound, self._variants)
         elif self._unset and not self._reports_unset:
             names = ", ".join(f"'{declaration.name}'" for declaration in self._unset)
             pronoun = "it" if len(self._unset) == 1 else "them"
@@ -181,7 +206,7 @@ class FileScope:
         names: dict[str, dict[str, Fault | Lazy]] = {section: {} for section in _KINDS}
         first: dict[str, tuple[str, YamlScalar]] = {}
         for section, kind in _KINDS.items():
-            for entry in self._spec.tree.section(section).values():
+            for entry in self._use.spec.tree.section(section).values():
                 other, key = first.setdefault(entry.name, (section, entry.key))
                 if other != section:
                     names[other][entry.name] = FAULT
@@ -194,7 +219,7 @@ class FileScope:
 
     def _parameter(self, entry: YamlEntry) -> Value | Fault:
         declaration = self.declared[entry.name]
-        value, setting = parameter_value(declaration, self._bound, self._variants, self._spec, self.evaluator)
+        value, setting = parameter_value(declaration, self._use.bound, self._variants, self._use.spec, self.evaluator)
         if setting is not None:
             self.evaluator.settings[declaration.name] = setting
         if value is not None:
@@ -233,13 +258,13 @@ class FileScope:
         paths = [one for name, one in self.declared.items() if one.is_file and name in self._names["parameters"]]
         return {
             file: {path.name: Lazy(partial(self._seen_from, part, path.name), path.key.span) for path in paths}
-            for file, part in self._spec.included.items()
-            if part.folder != self._spec.folder
+            for file, part in self._use.spec.included.items()
+            if part.folder != self._use.spec.folder
         }
 
     def _seen_from(self, part: SpecFile, name: str) -> Value | Fault:
         path = self.evaluator.scope.lookup(name, self._sink)
-        return self._as_path(path, rebased(path, self._spec.folder, part)) if isinstance(path, str) else path
+        return self._as_path(path, rebased(path, self._use.spec.folder, part)) if isinstance(path, str) else path
 
     def _as_path(self, value: Value | Fault, text: str | None = None) -> Value | Fault:
         """Return a path that knows how the compiled file would write it; `text` is its text, the path by default."""
@@ -260,19 +285,19 @@ class FileScope:
         return False
 
     def _name(self) -> Value | Fault:
-        node = self._spec.tree.get("name")
+        node = self._use.spec.tree.get("name")
         key = self.evaluator.key(node) if isinstance(node, YamlScalar) else None
         return key.text if key else FAULT
 
     def _unread_names(self) -> Scope | None:
         """Return a scope for names that a faulty section, an unknown key or an unread file may have declared."""
-        if self._spec.tree.get("name") is None or self._is_faulty(*_KINDS, "include"):
+        if self._use.spec.tree.get("name") is None or self._is_faulty(*_KINDS, "include"):
             return _FaultyScope(None)
-        names = frozenset(names_at_fault(self._spec.tree))
+        names = frozenset(names_at_fault(self._use.spec.tree))
         return _FaultyScope(names) if names else None
 
     def _is_faulty(self, *sections: str) -> bool:
-        return any(isinstance(self._spec.tree.get(section), YamlFault) for section in sections)
+        return any(isinstance(self._use.spec.tree.get(section), YamlFault) for section in sections)
 
 
 _ANGLE_TAGS = {"!degrees": math.radians, "!radians": float}

@@ -15,11 +15,11 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.arguments import Arguments
-from linkforge_compile.expand.defaults import with_frames_as_joints
 from linkforge_compile.expand.deletions import deleted_names, report_lost, without_links
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_entries, expand_node, expand_part
 from linkforge_compile.expand.instance import joint_name_of
+from linkforge_compile.expand.long_forms import with_frames_as_joints
 from linkforge_compile.expand.override import Override, apply_patch, report_empty
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.load.loader import SpecFile

@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 )
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, listed
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.expand.defaults import (
+from linkforge_compile.expand.long_forms import (
     CHOICES,
     is_set,
     lists_objects,

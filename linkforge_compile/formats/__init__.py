@@ -42,10 +42,10 @@ __all__ = [
     "require_options",
 ]
 
-URDF, SRDF, MJCF, SDF = Urdf(), Srdf(), Mjcf(), Sdf()
+URDF, SRDF, SDF, MJCF = Urdf(), Srdf(), Sdf(), Mjcf()
 JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT = JointLimitsYaml(), Ros2Controllers(), MoveIt()
 
-FORMATS: tuple[Format, ...] = (URDF, SRDF, MJCF, SDF, JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT)
+FORMATS: tuple[Format, ...] = (URDF, SRDF, SDF, MJCF, JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT)
 """Every output format; the first is the one on standard output unless another is requested."""
 
 

@@ -14,7 +14,7 @@ def render_yaml(
 ) -> Document:
     """Return the document that a template makes of views, which are made here so that they note origins.
 
-    The template writes text by the filter `to_yaml`, and on a line of its own what `place` and `origin_of` return.
+    The template writes values by the filter `to_yaml`, and at the end of a line what `place` or `origin_of` return.
 
     Raises:
         TemplateError: for what is wrong with one of the user's templates.

@@ -17,7 +17,7 @@ from linkforge_compile.diagnostics.codes.model import (
     UNPREFIXED_NAME,
     UNPREFIXED_TOPICS,
 )
-from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source import Key, SourceFile, SourceRef, Span
 from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -92,6 +92,7 @@ def passthrough_texts(
         for path, text in _texts(parameters, field)
         if source
     ]
+    texts += _texts_of_controllers(robot)
     topics = (
         PassthroughText(sensor.topic, sensor.source.at("topic"))
         for sensor in robot.sensors
@@ -235,6 +236,26 @@ def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]
         yield from ((joint.source, "parameters", joint.parameters) for joint in control.joints)
         yield from ((sensor.source, "parameters", sensor.parameters) for sensor in control.sensors)
         yield from ((gpio.source, "parameters", gpio.parameters) for gpio in control.gpios)
+
+
+def _texts_of_controllers(robot: Robot) -> Iterator[PassthroughText]:
+    """Yield the texts among the parameters of controllers, and their names: those of gains are names of joints."""
+    for controller in robot.controllers:
+        if controller.source:
+            for path, text in _texts_in_data(controller.parameters, "parameters"):
+                yield PassthroughText(text, controller.source.at(*path), _key_of(path))
+
+
+def _texts_in_data(value: object, *path: str | int) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    if isinstance(value, str):
+        yield path, value
+    elif isinstance(value, Mapping):
+        for key, item in value.items():
+            yield (*path, Key(key)), key
+            yield from _texts_in_data(item, *path, key)
+    elif isinstance(value, Sequence):
+        for number, item in enumerate(value):
+            yield from _texts_in_data(item, *path, number)
 
 
 def _key_of(path: tuple[str | int, ...]) -> str:

@@ -85,8 +85,8 @@ def test_a_mimic_joint_is_not_commanded_by_default():
 
 
 def test_a_mimic_of_the_hardware_wants_one_of_the_joint():
-    said = Ros2ControlJoint("left", (), ("position",), extra_attributes=[("mimic", "true")])
-    assert messages_of(gripper(said)) == [
+    joint = Ros2ControlJoint("left", (), ("position",), extra_attributes=[("mimic", "true")])
+    assert messages_of(gripper(joint)) == [
         "LF6106 ros2_control 'hw': joint 'left' is to mimic another in ros2_control, but has no 'mimic' of its own"
     ]
 

@@ -5,8 +5,8 @@ from linkforge_compile.diagnostics import UnresolvedNames
 from tests.checks.robots import messages_of, robot, turning
 
 
-def imu(name: str, link: str = "arm", **said: object) -> Sensor:
-    return Sensor(name, SensorType.IMU, link, imu_info=IMUInfo(), **said)  # type: ignore[arg-type]
+def imu(name: str, link: str = "arm", **fields: object) -> Sensor:
+    return Sensor(name, SensorType.IMU, link, imu_info=IMUInfo(), **fields)  # type: ignore[arg-type]
 
 
 def arm(*sensors: Sensor) -> Robot:

@@ -133,8 +133,8 @@ def test_a_link_out_of_the_repository_found_by_searching_is_reported_and_not_ope
     assert "[LF3401]\nnote: the link 'evil.robot.yaml' leads out\nnote: what may be read lies in" in run.stderr
     assert run.stderr.endswith("checked 1 spec: 1 error\n")
     schema = linkforge("schema", "--workspace", cwd=repository)
-    told = "the link 'evil.robot.yaml' leads out of the folders that may be read, and is not opened"
-    assert schema.stderr.count(told) == 1
+    expected = "the link 'evil.robot.yaml' leads out of the folders that may be read, and is not opened"
+    assert schema.stderr.count(expected) == 1
     assert not any("hunter2" in text for text in (run.stderr, schema.stderr, schema.stdout))
     for allowed in (("--allow-outside",), ("--package", "far=../far")):
         assert "evil.robot.yaml:1:1: " in linkforge("check", *allowed, cwd=repository).stderr

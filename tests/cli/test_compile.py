@@ -120,11 +120,11 @@ def test_the_option_gives_the_folder_of_a_package(pendulum: Path):
 def test_sensors_are_written_as_the_simulator_reads_them(pendulum: Path):
     spec = pendulum / "swing.robot.yaml"
     spec.write_text(PENDULUM + "sensors: {scan: {type: lidar, link: rod, frame: base}}\n")
-    for words, kind, told in (((), "gpu_lidar", ""), (("--gazebo", "classic"), "ray", "[LF7104]")):
+    for words, kind, expected in (((), "gpu_lidar", ""), (("--gazebo", "classic"), "ray", "[LF7104]")):
         run = linkforge("compile", spec.name, *words, cwd=pendulum)
         assert f'<sensor name="scan" type="{kind}">' in run.stdout
-        assert told in run.stderr
-        assert ("LF7104" in linkforge("check", spec.name, *words, cwd=pendulum).stderr) is bool(told)
+        assert expected in run.stderr
+        assert ("LF7104" in linkforge("check", spec.name, *words, cwd=pendulum).stderr) is bool(expected)
 
 
 def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulum: Path):
@@ -133,18 +133,18 @@ def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulu
     (pendulum / "meshes" / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
     mesh = "  rod: {visual: {mesh: meshes/rod.stl}, collision: visual}\n"
     (pendulum / "rod.robot.yaml").write_text(f"linkforge: 1\nname: rod\nlinks:\n{mesh}")
-    told = linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
+    stderr = linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
     expected = (
         "mesh path 'meshes/rod.stl' is relative to this file and cannot be found from 'build', the URDF's folder; "
         "write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
     )
-    assert f"rod.robot.yaml:4:24: warning: {expected}" in told
+    assert f"rod.robot.yaml:4:24: warning: {expected}" in stderr
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "robot.urdf", cwd=pendulum).stderr
     words = ("compile", "rod.robot.yaml", "-o", "build/", "--installed-in")
     assert "LF7006" not in linkforge(*words, ".", cwd=pendulum).stderr
     assert "cannot be found from 'urdf', the URDF's folder" in linkforge(*words, "urdf", cwd=pendulum).stderr
-    told = linkforge("compile", "rod.robot.yaml", "-o", "build/rod.mjcf", cwd=pendulum).stderr
-    assert "the MJCF's folder; write 'package://NAME/PATH', or the MJCF into '.'" in told
+    stderr = linkforge("compile", "rod.robot.yaml", "-o", "build/rod.mjcf", cwd=pendulum).stderr
+    assert "the MJCF's folder; write 'package://NAME/PATH', or the MJCF into '.'" in stderr
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
@@ -188,7 +188,7 @@ def test_an_output_called_by_a_dash_is_standard_output(pendulum: Path):
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
 @pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
 def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: Path):
-    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    plain = linkforge("compile", "swing.robot.yaml", cwd=pendulum).stdout
     piped = program("compile", "swing.robot.yaml", "-o", name, cwd=pendulum)
     assert (piped.returncode, piped.stdout, piped.stderr) == (0, plain, "")
     command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", name]
@@ -201,7 +201,7 @@ def test_the_device_of_standard_output_is_standard_output(name: str, pendulum: P
 
 @pytest.mark.skipif(sys.platform == "win32", reason="devices of POSIX")
 def test_a_pipe_that_a_shell_opened_is_written(pendulum: Path):
-    plain = program("compile", "swing.robot.yaml", cwd=pendulum).stdout
+    plain = linkforge("compile", "swing.robot.yaml", cwd=pendulum).stdout
     read, write = os.pipe()
     with os.fdopen(read) as pipe:
         command = [sys.executable, "-m", "linkforge_compile", "compile", "swing.robot.yaml", "-o", f"/dev/fd/{write}"]
@@ -432,7 +432,7 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
@@ -462,10 +462,10 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),
     ],
 )
-def test_wrong_usage_is_reported(pendulum: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(pendulum: Path, words: tuple[str, ...], expected: str):
     run = linkforge(*words, cwd=pendulum)
     assert run.returncode == 2
-    assert said in run.stderr
+    assert expected in run.stderr
 
 
 @pytest.mark.parametrize("factor", ["abc", "-1", "0", "1e300"])

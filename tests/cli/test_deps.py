@@ -195,17 +195,17 @@ def test_a_depfile_called_by_a_dash_is_standard_output(cell: Path, capfd: pytest
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         (("--depfile", "robot.d"), "--depfile tells what files are made from, so it takes -o"),
         (("-o", "robot.urdf", "--check", "--depfile", "robot.d"), "--check writes nothing"),
     ],
 )
 def test_a_depfile_of_nothing_is_wrong_usage(
-    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], said: str
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], expected: str
 ):
     assert main(["compile", "cell.robot.yaml", *words]) == 2
-    assert said in capfd.readouterr().err
+    assert expected in capfd.readouterr().err
     assert not (cell / "robot.d").exists()
 
 

@@ -60,8 +60,8 @@ def test_differences_are_shown_in_terms_of_the_robot(arms: Path):
 def test_the_same_robot_is_no_difference(arms: Path):
     linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
     run = linkforge("diff", "old.robot.yaml", "old.urdf", cwd=arms)
-    told = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is left out: old.urdf has none\n"
-    assert (run.returncode, run.stdout) == (0, told)
+    expected = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is left out: old.urdf has none\n"
+    assert (run.returncode, run.stdout) == (0, expected)
 
 
 def test_a_spec_is_the_same_robot_as_what_it_compiles_to(tmp_path: Path):
@@ -87,9 +87,9 @@ def test_a_spec_whose_urdf_does_not_read_back_is_compared_as_written(tmp_path: P
     run = linkforge("diff", "r.urdf", "r.robot.yaml", cwd=tmp_path)
     line = f"r.robot.yaml is compared as written, since its URDF does not read back: {reason}"
     assert (run.returncode, line in run.stdout.splitlines()) == (1, True)
-    told = json.loads(linkforge("diff", "r.robot.yaml", "r.urdf", "--json", cwd=tmp_path).stdout)
-    SCHEMA.validate(told)
-    assert told["not_read_back"] == reason
+    report = json.loads(linkforge("diff", "r.robot.yaml", "r.urdf", "--json", cwd=tmp_path).stdout)
+    SCHEMA.validate(report)
+    assert report["not_read_back"] == reason
 
 
 def test_parameters_go_to_every_spec(arms: Path):
@@ -172,10 +172,10 @@ def test_each_robot_gets_the_parameters_that_it_declares(arms: Path):
 
 def test_json_fits_its_schema(arms: Path):
     run = linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--json", cwd=arms)
-    told = json.loads(run.stdout)
-    SCHEMA.validate(told)
-    assert told["breaking"] == [{"kind": "link", "name": "tool0", "now": "tool"}]
-    assert told["differences"][1] == {
+    report = json.loads(run.stdout)
+    SCHEMA.validate(report)
+    assert report["breaking"] == [{"kind": "link", "name": "tool0", "now": "tool"}]
+    assert report["differences"][1] == {
         "kind": "changed",
         "path": "links/arm/inertial/mass",
         "before": 2,

@@ -64,7 +64,7 @@ def test_parameters_are_set_before(cell: Path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         (("arm.robot.yaml",), "takes a spec and a path, such as joints/elbow/limits/effort"),
         (("arm.robot.yaml", "joints/elbwo"), "there is no 'elbwo' in 'joints'; did you mean 'elbow'?"),
@@ -84,10 +84,10 @@ def test_parameters_are_set_before(cell: Path):
         (("cell.robot.yaml", "joints/elbow"), "there is no 'elbow' in 'joints'; did you mean 'left_elbow'?"),
     ],
 )
-def test_wrong_usage_is_reported(cell: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(cell: Path, words: tuple[str, ...], expected: str):
     run = linkforge("explain", *words, cwd=cell)
     assert (run.returncode, run.stdout) == (2, "")
-    assert said in run.stderr
+    assert expected in run.stderr
 
 
 def test_a_spec_with_errors_is_reported(cell: Path):
@@ -102,10 +102,10 @@ def test_the_values_replaced_by_an_override_and_a_default_are_shown(tmp_path: Pa
     patch = "override: {joints: {elbow: {limits: {effort: 30 N*m}}}}"
     (tmp_path / "cell.robot.yaml").write_text(CELL.replace("parent: table", f"parent: table, {patch}"))
     run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow/limits/effort", cwd=tmp_path)
-    told = [line for line in run.stdout.splitlines() if " at " in line]
+    lines = [line for line in run.stdout.splitlines() if " at " in line]
     assert run.stdout.startswith("joints/left_elbow/limits/effort: 30 N*m\n")
-    assert told[0].startswith("written at cell.robot.yaml:5:")
-    assert told[1:3] == [
+    assert lines[0].startswith("written at cell.robot.yaml:5:")
+    assert lines[1:3] == [
         "instead of what is written at arm.robot.yaml:7:22",
         "instead of the default at arm.robot.yaml:8:37",
     ]
@@ -229,16 +229,16 @@ def test_all_codes_are_listed(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         (("LF41099",), "no diagnostic has the code 'LF41099'; did you mean 'LF4109'?"),
         (("--codes", "LF4102"), "--codes lists all codes and takes no words, found 'LF4102'"),
     ],
 )
-def test_a_code_that_is_none_is_wrong_usage(tmp_path: Path, words: tuple[str, ...], said: str):
+def test_a_code_that_is_none_is_wrong_usage(tmp_path: Path, words: tuple[str, ...], expected: str):
     run = linkforge("explain", *words, cwd=tmp_path)
     assert run.returncode == 2
-    assert said in run.stderr
+    assert expected in run.stderr
 
 
 NESTED = {

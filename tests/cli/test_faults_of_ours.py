@@ -33,15 +33,15 @@ def test_an_internal_fault_shows_what_to_report(
 ):
     plant(monkeypatch, ZeroDivisionError("by zero"))
     assert main(COMMAND) == 70
-    said = capsys.readouterr().err
-    assert "internal fault: ZeroDivisionError" in said
-    assert "not in your spec" in said
-    assert "command: linkforge compile 'my robots/../any.robot.yaml'" in said
-    assert "Traceback" not in said
+    stderr = capsys.readouterr().err
+    assert "internal fault: ZeroDivisionError" in stderr
+    assert "not in your spec" in stderr
+    assert "command: linkforge compile 'my robots/../any.robot.yaml'" in stderr
+    assert "Traceback" not in stderr
     (report,) = reports.iterdir()
-    assert str(report) in said
+    assert str(report) in stderr
     written = report.read_text("utf-8")
-    assert said.endswith(written.partition("Traceback")[0])
+    assert stderr.endswith(written.partition("Traceback")[0])
     assert written.rstrip().endswith("ZeroDivisionError: by zero")
 
 
@@ -67,9 +67,9 @@ def test_a_report_that_cannot_be_saved_is_offered_otherwise(
     plant(monkeypatch, ZeroDivisionError("by zero"))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "nowhere"))
     assert main(COMMAND) == 70
-    said = capsys.readouterr().err
-    assert "what LINKFORGE_DEBUG=1 prints" in said
-    assert "Traceback" not in said
+    stderr = capsys.readouterr().err
+    assert "what LINKFORGE_DEBUG=1 prints" in stderr
+    assert "Traceback" not in stderr
 
 
 def test_an_interruption_is_quiet(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
@@ -102,10 +102,10 @@ LONG = "a" * 5000
 )
 def test_a_name_that_no_file_can_have_is_no_fault_of_ours(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]):
     assert main(words) == 2
-    (said,) = capsys.readouterr().err.splitlines()
-    assert said.startswith(f"linkforge {words[0]}: '")
-    assert said.endswith(": File name too long")
-    assert len(said) < 200
+    (stderr,) = capsys.readouterr().err.splitlines()
+    assert stderr.startswith(f"linkforge {words[0]}: '")
+    assert stderr.endswith(": File name too long")
+    assert len(stderr) < 200
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows removes no folder in which somebody stands")
@@ -132,5 +132,5 @@ def test_a_folder_that_is_gone_is_no_fault_of_ours(
     with chdir(gone):
         gone.rmdir()
         code = main(words)
-    said = capsys.readouterr().err
-    assert (code, said) == (2, f"linkforge {words[0]}: the folder it is called in is gone; enter one that exists\n")
+    stderr = capsys.readouterr().err
+    assert (code, stderr) == (2, f"linkforge {words[0]}: the folder it is called in is gone; enter one that exists\n")

@@ -29,8 +29,8 @@ def arm(tmp_path: Path):
 
 def test_a_spec_comes_on_standard_output(arm, capfd: pytest.CaptureFixture[str]):
     assert main(["import", arm()]) == 0
-    written, told = capfd.readouterr()
-    assert (written.partition("\n\n")[2], told) == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
+    written, stderr = capfd.readouterr()
+    assert (written.partition("\n\n")[2], stderr) == ("linkforge: 1\nname: arm\n\nlinks:\n  base: {}\n", "")
 
 
 def test_a_spec_begins_with_the_command_and_the_digest_of_its_files(tmp_path: Path):
@@ -94,11 +94,11 @@ def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pyte
     assert "warning: text is not allowed in <robot>; 'some text' is left out [LF8101]" in capfd.readouterr().err
     spec.unlink()
     assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
-    told = capfd.readouterr().err
+    stderr = capfd.readouterr().err
     assert not spec.exists()
-    assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in told
-    assert "warning: <material> is kept as raw XML" in told
-    assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
+    assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in stderr
+    assert "warning: <material> is kept as raw XML" in stderr
+    assert stderr.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 
 @pytest.mark.parametrize("quieter", [["-q"], ["--ignore", "LF8101"], ["--select", "LF5"]])
@@ -106,10 +106,10 @@ def test_a_loss_that_fails_strict_is_reported_even_if_ignored(
     arm, quieter: list[str], capfd: pytest.CaptureFixture[str]
 ):
     assert main(["import", arm("some text"), "--strict", *quieter]) == 1
-    written, told = capfd.readouterr()
+    written, stderr = capfd.readouterr()
     assert written == ""
-    assert "left out [LF8101]" in told
-    assert told.endswith("\nnothing written: 1 loss (LF8101)\n")
+    assert "left out [LF8101]" in stderr
+    assert stderr.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 
 def test_strict_reports_that_nothing_is_written_if_there_are_errors(arm, capfd: pytest.CaptureFixture[str]):
@@ -135,10 +135,10 @@ def test_a_spec_that_does_not_compile_fails(arm, tmp_path: Path, capfd: pytest.C
 def test_a_spec_that_lacks_what_is_raw_is_written_and_fails(arm, capfd: pytest.CaptureFixture[str]):
     joint = '<joint name="j" type="revolute"><parent link="base"/><child link="tip"/>{}<limit effort="1,5"/></joint>'
     assert main(["import", arm('<link name="tip"/>' + joint.format('<axis xyz="0 0"/>'))]) == 1
-    written, told = capfd.readouterr()
+    written, stderr = capfd.readouterr()
     assert '    child: tip\n    extra: [<axis xyz="0 0"/>, "<limit effort=\\"1,5\\"/>"]\n' in written
-    assert told.count("error: ") == told.count("note: this <joint> needs it") == 2
-    assert "warning: " not in told
+    assert stderr.count("error: ") == stderr.count("note: this <joint> needs it") == 2
+    assert "warning: " not in stderr
 
 
 def test_the_version_that_a_capsule_needs_is_no_loss(arm, capfd: pytest.CaptureFixture[str]):
@@ -151,9 +151,9 @@ def test_the_version_that_a_capsule_needs_is_no_loss(arm, capfd: pytest.CaptureF
 def test_an_error_of_a_robot_is_reported_in_the_urdf(arm, capfd: pytest.CaptureFixture[str]):
     urdf = arm('<joint name="j" type="fixed"><parent link="base"/><child link="tool"/></joint>')
     assert main(["import", urdf]) == 1
-    told = capfd.readouterr()
-    assert f"{urdf}:1:101: error: no link named 'tool'" in told.err
-    assert "child: tool" in told.out
+    captured = capfd.readouterr()
+    assert f"{urdf}:1:101: error: no link named 'tool'" in captured.err
+    assert "child: tool" in captured.out
 
 
 @pytest.mark.parametrize("folder", ["new/", "new", "there"])
@@ -271,12 +271,12 @@ def test_a_long_wait_at_a_terminal_is_explained(arm, monkeypatch: pytest.MonkeyP
             return True
 
     def slow(*_: object, **__: object) -> Import:
-        is_told.wait(5)
+        is_reported.wait(5)
         return Import("linkforge: 1\n", ())
 
-    terminal, is_told = Terminal(), Event()
+    terminal, is_reported = Terminal(), Event()
     print_status = reports.print_status
-    monkeypatch.setattr(reports, "print_status", lambda *words: (print_status(*words), is_told.set()))
+    monkeypatch.setattr(reports, "print_status", lambda *words: (print_status(*words), is_reported.set()))
     monkeypatch.setattr(reports, "PATIENCE", 0.01)
     monkeypatch.setattr(sys, "stderr", terminal)
     monkeypatch.setattr("linkforge_compile.importing.import_urdf", slow)
@@ -300,9 +300,9 @@ def test_a_file_in_another_encoding_than_declared_is_reported(tmp_path: Path, ca
     urdf = tmp_path / "arm.urdf"
     urdf.write_bytes(b'<?xml version="1.0" encoding="utf-8"?><robot name="\xff"/>')
     assert main(["import", str(urdf)]) == 1
-    told = capfd.readouterr().err
-    assert "line 1 has the byte 0xff, which is not utf-8; save the file as UTF-8, or declare the encoding" in told
-    assert "arm.urdf:1:52: error" in told
+    stderr = capfd.readouterr().err
+    assert "line 1 has the byte 0xff, which is not utf-8; save the file as UTF-8, or declare the encoding" in stderr
+    assert "arm.urdf:1:52: error" in stderr
 
 
 def test_standard_input_is_no_srdf(arm, capfd: pytest.CaptureFixture[str]):

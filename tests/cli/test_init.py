@@ -48,10 +48,10 @@ def test_a_new_robot_is_one_to_begin_with(tmp_path: Path):
 
 
 def test_it_prints_what_it_wrote_and_the_next_steps(tmp_path: Path):
-    told = linkforge("init", "my-arm", cwd=tmp_path).stderr.splitlines()
-    written = {line.removeprefix("wrote my-arm/") for line in told if line.startswith("wrote ")}
+    lines = linkforge("init", "my-arm", cwd=tmp_path).stderr.splitlines()
+    written = {line.removeprefix("wrote my-arm/") for line in lines if line.startswith("wrote ")}
     assert written == FILES
-    assert told[told.index("next:") + 1] == "  cd my-arm"
+    assert lines[lines.index("next:") + 1] == "  cd my-arm"
     assert linkforge("init", "other", "--quiet", cwd=tmp_path).stderr == ""
     assert "cd " not in linkforge("init", "my-arm", "--dir", ".", cwd=tmp_path).stderr
 
@@ -72,10 +72,10 @@ def test_what_is_there_is_kept(tmp_path: Path):
 
 def test_a_second_robot_joins_the_schema_and_is_missed_in_cmake(tmp_path: Path):
     linkforge("init", "arm", "--dir", ".", cwd=tmp_path)
-    told = linkforge("init", "hand", "--dir", ".", cwd=tmp_path).stderr
+    stderr = linkforge("init", "hand", "--dir", ".", cwd=tmp_path).stderr
     line = "linkforge_add_robot(hand.robot.yaml FORMATS urdf srdf INSTALL)"
-    assert told.endswith(f"\nput into CMakeLists.txt:\n  {line}\n")
-    assert "wrote .linkforge/robot.schema.json\n" in told
+    assert stderr.endswith(f"\nput into CMakeLists.txt:\n  {line}\n")
+    assert "wrote .linkforge/robot.schema.json\n" in stderr
     assert "hand.robot.yaml" in (tmp_path / ".linkforge/robot.schema.json").read_text()
     cmake = tmp_path / "CMakeLists.txt"
     cmake.write_text(f"{cmake.read_text()}{line}\n")
@@ -89,9 +89,9 @@ def test_files_at_the_top_of_a_package_or_repository_are_not_written_twice(tmp_p
     (tmp_path / ".pre-commit-config.yaml").write_text("repos: []\n")
     (package / "package.xml").touch()
     (package / "CMakeLists.txt").write_text("project(arm_description)\n")
-    told = linkforge("init", "arm", "--dir", "robots", cwd=package).stderr
+    stderr = linkforge("init", "arm", "--dir", "robots", cwd=package).stderr
     add = "linkforge_add_robot(robots/arm.robot.yaml FORMATS urdf srdf INSTALL)"
-    assert f"put into CMakeLists.txt:\n  find_package(linkforge_compile REQUIRED)\n  {add}\n" in told
+    assert f"put into CMakeLists.txt:\n  find_package(linkforge_compile REQUIRED)\n  {add}\n" in stderr
     assert files_in(package / "robots").keys() == {".gitignore", ".linkforge/robot.schema.json", "arm.robot.yaml"}
     settings = json.loads((tmp_path / ".vscode/settings.json").read_text())
     (schema,) = settings["yaml.schemas"]
@@ -104,9 +104,9 @@ def test_files_at_the_top_of_a_package_or_repository_are_not_written_twice(tmp_p
 
 def test_what_tools_read_at_the_top_of_a_repository_is_written_there(tmp_path: Path):
     (tmp_path / ".git").mkdir()
-    told = linkforge("init", "arm", cwd=tmp_path).stderr
+    stderr = linkforge("init", "arm", cwd=tmp_path).stderr
     top = {".pre-commit-config.yaml", ".vscode/settings.json", ".vscode/extensions.json"}
-    assert all(f"wrote {name}\n" in told for name in top)
+    assert all(f"wrote {name}\n" in stderr for name in top)
     assert top <= files_in(tmp_path).keys()
     assert "compile --check arm/arm.robot.yaml -o arm/urdf/" in (tmp_path / ".pre-commit-config.yaml").read_text()
     _, missed = linkforge("init", "hand", cwd=tmp_path / "arm").stderr.split("\nput into ")
@@ -172,8 +172,8 @@ def test_files_next_to_it_are_not_run(
     Path("vendor.urdf.xacro").write_text('<robot name="vendor"><link name="base"/></robot>')
     Path("cell.robot.yaml").write_text("linkforge: 1\nname: cell\nmodules: {arm: {use: vendor.urdf.xacro}}\n")
     assert main(["init", "hand", "--dir", "."]) == 0
-    told = capfd.readouterr().err
-    assert "names of cell.robot.yaml may be missing; `linkforge schema --workspace` may find them\n" in told
+    stderr = capfd.readouterr().err
+    assert "names of cell.robot.yaml may be missing; `linkforge schema --workspace` may find them\n" in stderr
 
 
 @pytest.mark.parametrize("blocked", [".vscode", ".linkforge"])

@@ -61,7 +61,7 @@ def test_annotations_name_files_from_the_top_of_the_checkout(specs: Path):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         ((), ["LF6003"]),
         (("--ignore", "LF6"), []),
@@ -72,8 +72,8 @@ def test_annotations_name_files_from_the_top_of_the_checkout(specs: Path):
         (("-q", "--werror"), ["LF6003"]),
     ],
 )
-def test_warnings_are_chosen(specs: Path, words: tuple[str, ...], told: list[str]):
-    assert codes(linkforge("check", "heavy.robot.yaml", "--format", "json", *words, cwd=specs).stdout) == told
+def test_warnings_are_chosen(specs: Path, words: tuple[str, ...], expected: list[str]):
+    assert codes(linkforge("check", "heavy.robot.yaml", "--format", "json", *words, cwd=specs).stdout) == expected
 
 
 def test_warnings_taken_for_errors_stop_the_output(specs: Path):
@@ -96,9 +96,9 @@ def test_quiet_is_silent_when_all_is_well(specs: Path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
-        (("--ignore", "LF6O03"), "no diagnostic has the code 'LF6O03'; did you mean 'LF6"),
+        (("--ignore", "LF600O"), "no diagnostic has the code 'LF600O'; did you mean 'LF6"),
         (("--select", "E501"), "no diagnostic has the code 'E501'"),
         (("--ignore", "LF4102"), "LF4102 is an error, which cannot be ignored"),
         (("--ignore", "LF11"), "LF11 stands for errors only, which cannot be ignored"),
@@ -106,10 +106,10 @@ def test_quiet_is_silent_when_all_is_well(specs: Path):
         (("-", "--all-variants"), "--all-variants takes files, not standard input"),
     ],
 )
-def test_an_option_that_cannot_be_followed_is_wrong_usage(specs: Path, words: tuple[str, ...], said: str):
+def test_an_option_that_cannot_be_followed_is_wrong_usage(specs: Path, words: tuple[str, ...], expected: str):
     run = linkforge("check", "heavy.robot.yaml", *words, cwd=specs)
     assert run.returncode == 2
-    assert said in run.stderr
+    assert expected in run.stderr
 
 
 def test_a_spec_is_checked_from_standard_input_with_paths_from_here(specs: Path):
@@ -143,10 +143,10 @@ def test_on_a_terminal_text_is_colored_and_refers_to_explain(specs: Path):
     plain = {name: value for name, value in os.environ.items() if name not in {"NO_COLOR", "FORCE_COLOR"}}
     subprocess.run(command, cwd=specs, stderr=theirs, check=False, timeout=60, env={**plain, "TERM": "xterm"})
     os.close(theirs)
-    said = os.read(ours, 10_000).decode()
+    stderr = os.read(ours, 10_000).decode()
     os.close(ours)
-    assert "\033[1;31merror:" in said
-    assert said.endswith("run 'linkforge explain LF4105' for more\r\n")
+    assert "\033[1;31merror:" in stderr
+    assert stderr.endswith("run 'linkforge explain LF4105' for more\r\n")
 
 
 def test_the_problem_matcher_is_written(specs: Path):

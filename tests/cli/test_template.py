@@ -41,8 +41,8 @@ def compile_by(folder: Path, *words: str, stdin: str = "", expect: int = 0) -> t
 
 def test_documents_are_written_in_place_of_urdf_and_srdf(folder: Path):
     (folder / "t" / "joints.csv.j2").write_text("{% for joint in robot.joints %}\n{{ joint.name }}\n{% endfor %}")
-    _, told = compile_by(folder, "-o", "out/")
-    assert told == "wrote out/joints.csv\nwrote out/notes.md\n"
+    _, stderr = compile_by(folder, "-o", "out/")
+    assert stderr == "wrote out/joints.csv\nwrote out/notes.md\n"
     assert sorted(path.name for path in (folder / "out").iterdir()) == ["joints.csv", "notes.md"]
     assert (folder / "out" / "notes.md").read_text() == f"# {BANNER}\n2 links\n"
     assert compile_by(folder, "-o", "out/")[1] == "out/joints.csv is up to date\nout/notes.md is up to date\n"
@@ -55,8 +55,8 @@ def test_the_only_document_goes_to_standard_output(words: tuple[str, ...], folde
 
 def test_several_documents_need_a_folder(folder: Path):
     (folder / "t" / "a.txt.j2").write_text("a")
-    told = "standard output takes one document of --template, found 2: a.txt, notes.md; write -o FOLDER/"
-    assert compile_by(folder, expect=2) == ("", f"linkforge compile: {told}\n")
+    expected = "standard output takes one document of --template, found 2: a.txt, notes.md; write -o FOLDER/"
+    assert compile_by(folder, expect=2) == ("", f"linkforge compile: {expected}\n")
 
 
 @pytest.mark.parametrize("words", [("--format", "urdf"), ("-o", "arm.urdf"), ("-o", "arm.urdf", "-o", "arm.srdf")])
@@ -75,8 +75,8 @@ def test_a_folder_without_documents_writes_urdf_and_srdf(folder: Path):
     (folder / "t" / "notes.md.j2").unlink()
     (folder / "t" / "srdf").mkdir()
     (folder / "t" / "srdf" / "group.xml.j2").write_text("<mine/>")
-    _, told = compile_by(folder, "-o", "out/")
-    assert told == "wrote out/arm.urdf\nwrote out/arm.srdf\n"
+    _, stderr = compile_by(folder, "-o", "out/")
+    assert stderr == "wrote out/arm.urdf\nwrote out/arm.srdf\n"
     assert "<mine/>" in (folder / "out" / "arm.srdf").read_text()
 
 
@@ -86,8 +86,8 @@ def test_a_template_that_goes_before_none_of_ours_is_warned_of(folder: Path):
         (folder / "t" / "urdf" / name).write_text("{# nothing #}")
     (folder / "t" / "urdf" / "joint.xml.j2").write_text("{% include 'urdf/_used.xml.j2' %}")
     for words in ((), ("--format", "urdf")):
-        _, told = compile_by(folder, *words)
-        assert [line for line in told.split("\n") if "LF7208" in line] == [
+        _, stderr = compile_by(folder, *words)
+        assert [line for line in stderr.split("\n") if "LF7208" in line] == [
             f"t/urdf/{name}:1:1: warning: 'urdf/{name}' is unused: linkforge has no template of that name to replace, "
             f"and no template includes it{hint} [LF7208]"
             for name, hint in (
@@ -145,16 +145,16 @@ def test_a_fault_leaves_all_documents_as_they_were(folder: Path):
     compile_by(folder, "-o", "out/")
     (folder / "t" / "notes.md.j2").write_text("changed")
     (folder / "t" / "z.txt.j2").write_text("\n{{ robot.nam }}")
-    _, told = compile_by(folder, "-o", "out/", expect=1)
-    assert told.startswith("t/z.txt.j2:2:1: error: this template uses an undefined name: a Robot has no 'nam'")
-    assert "\n     2 | {{ robot.nam }}\n       | ^^^^^^^^^^^^^^^\n" in told
+    _, stderr = compile_by(folder, "-o", "out/", expect=1)
+    assert stderr.startswith("t/z.txt.j2:2:1: error: this template uses an undefined name: a Robot has no 'nam'")
+    assert "\n     2 | {{ robot.nam }}\n       | ^^^^^^^^^^^^^^^\n" in stderr
     assert (folder / "out" / "notes.md").read_text() == f"# {BANNER}\n2 links\n"
 
 
 def test_faults_of_templates_are_reported_as_all_others_are(folder: Path):
     (folder / "t" / "notes.md.j2").write_text("{{ robot.nam }}")
-    _, told = compile_by(folder, "-o", "out/", "--diagnostics", "json", expect=1)
-    (diagnostic,) = json.loads(told)["diagnostics"]
+    _, stderr = compile_by(folder, "-o", "out/", "--diagnostics", "json", expect=1)
+    (diagnostic,) = json.loads(stderr)["diagnostics"]
     assert (diagnostic["code"], diagnostic["file"]) == ("LF7202", "t/notes.md.j2")
 
 
@@ -168,9 +168,9 @@ def test_check_compares_documents(folder: Path):
     compile_by(folder, "-o", "out/")
     assert compile_by(folder, "-o", "out/", "--check")[1] == "out/notes.md is up to date\n"
     (folder / "t" / "notes.md.j2").write_text("# other\n")
-    _, told = compile_by(folder, "-o", "out/", "--check", expect=1)
-    assert told.startswith("out/notes.md:1:1: error: out of date: 'arm.robot.yaml' now compiles to '# other'")
-    assert "note: the templates in 't' make it of the spec, and may have changed" in told
+    _, stderr = compile_by(folder, "-o", "out/", "--check", expect=1)
+    assert stderr.startswith("out/notes.md:1:1: error: out of date: 'arm.robot.yaml' now compiles to '# other'")
+    assert "note: the templates in 't' make it of the spec, and may have changed" in stderr
 
 
 def test_a_depfile_names_the_templates_that_were_read(folder: Path):
@@ -183,12 +183,12 @@ def test_a_depfile_names_the_templates_that_were_read(folder: Path):
 
 def test_no_template_is_written_over(folder: Path):
     (folder / "t" / "notes.md").symlink_to("notes.md.j2")
-    _, told = compile_by(folder, "-o", "t/", expect=2)
-    assert "'t/notes.md' would be replaced, and the robot is made from it" in told
+    _, stderr = compile_by(folder, "-o", "t/", expect=2)
+    assert "'t/notes.md' would be replaced, and the robot is made from it" in stderr
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "expected"),
     [
         (("--template", "nosuch"), "--template takes a folder of templates, found 'nosuch': No such file or directory"),
         (
@@ -209,14 +209,14 @@ def test_no_template_is_written_over(folder: Path):
         (("--template", "t", "--check"), "--check compares with files"),
     ],
 )
-def test_contradictory_options_are_wrong_usage(words: tuple[str, ...], told: str, folder: Path):
+def test_contradictory_options_are_wrong_usage(words: tuple[str, ...], expected: str, folder: Path):
     (folder / "empty").mkdir()
     (folder / "two").mkdir()
     (folder / "two" / "a.md.j2").touch()
     (folder / "two" / "b.md.j2").touch()
     done = linkforge("compile", "arm.robot.yaml", *words, cwd=folder)
     assert done.returncode == 2
-    assert done.stderr.startswith(f"linkforge compile: {told}")
+    assert done.stderr.startswith(f"linkforge compile: {expected}")
 
 
 def test_a_package_that_the_user_names_may_be_linked_to(folder: Path, tmp_path_factory: pytest.TempPathFactory):

@@ -41,22 +41,22 @@ def test_a_changed_spec_is_reported_at_the_first_different_line(arm: Path, capfd
     before = (arm / "urdf" / "arm.urdf").read_bytes()
     line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1
     assert check("reach:=0.7") == 1
-    told = capfd.readouterr().err
+    stderr = capfd.readouterr().err
     assert (
         f"urdf/arm.urdf:{line}:1: error: out of date: 'arm.robot.yaml' now compiles to '<box size=\"0.7 1 1\"/>'; "
-        in told
+        in stderr
     )
-    assert "[LF7095]" in told
-    assert "arm.srdf:" not in told
+    assert "[LF7095]" in stderr
+    assert "arm.srdf:" not in stderr
     assert (arm / "urdf" / "arm.urdf").read_bytes() == before
 
 
 def test_a_missing_file_is_reported_and_not_written(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "urdf" / "arm.srdf").unlink()
     assert check() == 1
-    told = capfd.readouterr().err
+    stderr = capfd.readouterr().err
     missed = "there is no 'urdf/arm.srdf', which 'arm.robot.yaml' compiles to; compile it again [LF7096]"
-    assert f"arm.robot.yaml:1:1: error: {missed}" in told
+    assert f"arm.robot.yaml:1:1: error: {missed}" in stderr
     assert not (arm / "urdf" / "arm.srdf").exists()
 
 
@@ -76,9 +76,9 @@ def test_the_line_ends_of_windows_are_no_difference(arm: Path):
 def test_a_spec_with_errors_is_reported_before_its_output(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "arm.robot.yaml").write_text(SPEC.replace("child: rod", "child: rood"))
     assert check() == 1
-    told = capfd.readouterr().err
-    assert "[LF4102]" in told
-    assert "[LF7095]" not in told
+    stderr = capfd.readouterr().err
+    assert "[LF4102]" in stderr
+    assert "[LF7095]" not in stderr
 
 
 def test_standard_output_is_nothing_to_compare_with(arm: Path, capfd: pytest.CaptureFixture[str]):
@@ -101,17 +101,17 @@ def test_an_srdf_requested_by_its_name_is_written(arm: Path, capfd: pytest.Captu
 
 
 @pytest.mark.parametrize(
-    ("outputs", "said"),
+    ("outputs", "expected"),
     [
         (("a.urdf", "b.urdf"), "'a.urdf' and 'b.urdf' would be the same urdf; name one of them"),
         (("a.urdf", "build/"), "one folder; found the folder 'build/'"),
     ],
 )
 def test_contradictory_outputs_are_reported(
-    arm: Path, capfd: pytest.CaptureFixture[str], outputs: tuple[str, str], said: str
+    arm: Path, capfd: pytest.CaptureFixture[str], outputs: tuple[str, str], expected: str
 ):
     assert main(["compile", "arm.robot.yaml", "-o", outputs[0], "-o", outputs[1]]) == 2
-    assert said in capfd.readouterr().err
+    assert expected in capfd.readouterr().err
 
 
 def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):

@@ -68,8 +68,8 @@ WATCHING = "watching cell.robot.yaml and 1 more; Ctrl-C ends"
 
 
 def test_a_change_of_a_module_compiles_again(cell: Path, watch: Callable[..., list[str]]):
-    told = watch(nothing, sets("arm.robot.yaml", ARM.replace("hand", "gripper")), nothing)
-    assert told == [
+    output = watch(nothing, sets("arm.robot.yaml", ARM.replace("hand", "gripper")), nothing)
+    assert output == [
         "wrote out/cell.urdf",
         WATCHING,
         "arm.robot.yaml changed",
@@ -84,16 +84,16 @@ def test_errors_are_reported_and_the_output_stays_until_they_are_fixed(cell: Pat
         assert '<link name="arm_hand"/>' in (folder / "out" / "cell.urdf").read_text()
 
     wrong = ARM.replace("hand: ", "hand: {colision: visual}")
-    told = watch(sets("arm.robot.yaml", wrong), is_still_there, sets("arm.robot.yaml", ARM))
-    assert "arm.robot.yaml:3:16: error: 'colision' is not a key of a link; did you mean 'collision'? [LF2101]" in told
-    assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
+    output = watch(sets("arm.robot.yaml", wrong), is_still_there, sets("arm.robot.yaml", ARM))
+    assert "arm.robot.yaml:3:16: error: 'colision' is not a key of a link; did you mean 'collision'? [LF2101]" in output
+    assert output[-2:] == ["out/cell.urdf is up to date", WATCHING]
 
 
 def test_a_file_that_is_missed_is_waited_for(watch: Callable[..., list[str]]):
-    told = watch(removes("arm.robot.yaml"), nothing, sets("arm.robot.yaml", ARM))
-    assert any("there is no file 'arm.robot.yaml'" in line for line in told)
-    assert told.count("arm.robot.yaml changed") == 2
-    assert told[-2:] == ["out/cell.urdf is up to date", WATCHING]
+    output = watch(removes("arm.robot.yaml"), nothing, sets("arm.robot.yaml", ARM))
+    assert any("there is no file 'arm.robot.yaml'" in line for line in output)
+    assert output.count("arm.robot.yaml changed") == 2
+    assert output[-2:] == ["out/cell.urdf is up to date", WATCHING]
 
 
 def test_several_deleted_outputs_are_reported_together(cell: Path, watch: Callable[..., list[str]]):
@@ -102,14 +102,14 @@ def test_several_deleted_outputs_are_reported_together(cell: Path, watch: Callab
             path.unlink()
 
     semantic = f"{CELL}semantic: {{groups: {{all: {{links: [base]}}}}}}\n"
-    told = watch(sets("cell.robot.yaml", semantic), removes_both, nothing)
-    assert "out/cell.urdf and 1 more are gone" in told
+    output = watch(sets("cell.robot.yaml", semantic), removes_both, nothing)
+    assert "out/cell.urdf and 1 more are gone" in output
 
 
 def test_a_file_that_is_used_no_more_is_watched_no_more(watch: Callable[..., list[str]]):
     alone = CELL.partition("modules")[0]
-    told = watch(sets("cell.robot.yaml", alone), sets("arm.robot.yaml", "x"), nothing)
-    assert told[-3:] == ["cell.robot.yaml changed", "wrote out/cell.urdf", "watching cell.robot.yaml; Ctrl-C ends"]
+    output = watch(sets("cell.robot.yaml", alone), sets("arm.robot.yaml", "x"), nothing)
+    assert output[-3:] == ["cell.robot.yaml changed", "wrote out/cell.urdf", "watching cell.robot.yaml; Ctrl-C ends"]
 
 
 def by_templates(folder: Path) -> None:
@@ -126,8 +126,8 @@ def test_templates_are_watched_and_what_they_miss(cell: Path, watch: Callable[..
         sets("t/_b.j2", "b"),
         nothing,
     )
-    told = watch(*deeds, nothing, sets("t/_b.j2", "changed"), words=("--template", "t"))
-    assert [line for line in told if not line.startswith("watching")] == [
+    output = watch(*deeds, nothing, sets("t/_b.j2", "changed"), words=("--template", "t"))
+    assert [line for line in output if not line.startswith("watching")] == [
         "wrote out/a.md",
         "t/a.md.j2 changed",
         "wrote out/a.md",
@@ -141,22 +141,22 @@ def test_templates_are_watched_and_what_they_miss(cell: Path, watch: Callable[..
 
 def test_a_template_that_is_new_is_rendered_and_a_fault_in_it_waited_for(cell: Path, watch: Callable[..., list[str]]):
     by_templates(cell / "t")
-    told = watch(
+    output = watch(
         sets("t/b.md.j2", "{{ nosuch }}"), nothing, sets("t/b.md.j2", "right"), nothing, words=("--template", "t")
     )
-    assert "t/b.md.j2:1:1: error: this template uses an undefined name: 'nosuch' is not defined [LF7202]" in told
+    assert "t/b.md.j2:1:1: error: this template uses an undefined name: 'nosuch' is not defined [LF7202]" in output
     assert (cell / "out" / "b.md").read_text() == "right"
 
 
 def test_templates_next_to_their_output_do_not_compile_for_ever(cell: Path, watch: Callable[..., list[str]]):
     by_templates(cell / "out")
-    told = watch(sets("out/a.md.j2", "changed"), nothing, nothing, words=("--template", "out"))
-    assert [line for line in told if line.startswith("wrote")] == ["wrote out/a.md"] * 2
+    output = watch(sets("out/a.md.j2", "changed"), nothing, nothing, words=("--template", "out"))
+    assert [line for line in output if line.startswith("wrote")] == ["wrote out/a.md"] * 2
 
 
 def test_an_output_that_somebody_deletes_is_made_again(cell: Path, watch: Callable[..., list[str]]):
-    told = watch(removes("out/cell.urdf"), nothing)
-    assert told[2:] == ["out/cell.urdf is gone", "wrote out/cell.urdf", WATCHING]
+    output = watch(removes("out/cell.urdf"), nothing)
+    assert output[2:] == ["out/cell.urdf is gone", "wrote out/cell.urdf", WATCHING]
     assert (cell / "out" / "cell.urdf").exists()
 
 
@@ -189,19 +189,19 @@ def with_the_same_time(folder: Path, text: str) -> None:
 def test_a_fault_and_its_mending_are_seen_however_an_editor_saves(
     cell: Path, watch: Callable[..., list[str]], save: Callable[[Path, str], None]
 ):
-    told = watch(lambda folder: save(folder, ARM.replace("hand", "$and")), lambda folder: save(folder, ARM))
-    assert told[2] == "arm.robot.yaml changed"
-    assert any("'$and'" in line for line in told)
-    assert told[-3:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+    output = watch(lambda folder: save(folder, ARM.replace("hand", "$and")), lambda folder: save(folder, ARM))
+    assert output[2] == "arm.robot.yaml changed"
+    assert any("'$and'" in line for line in output)
+    assert output[-3:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
 
 
 def test_a_folder_of_modules_that_moves_away_and_back_is_one(cell: Path, watch: Callable[..., list[str]]):
     (cell / "parts").mkdir()
     (cell / "arm.robot.yaml").rename(cell / "parts" / "arm.robot.yaml")
     (cell / "cell.robot.yaml").write_text(CELL.replace("arm.robot.yaml", "parts/arm.robot.yaml"))
-    told = watch(lambda _: (cell / "parts").rename(cell / "away"), lambda _: (cell / "away").rename(cell / "parts"))
-    assert any("there is no file 'parts/arm.robot.yaml'" in line for line in told)
-    assert told[-3:] == ["parts/arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+    output = watch(lambda _: (cell / "parts").rename(cell / "away"), lambda _: (cell / "away").rename(cell / "parts"))
+    assert any("there is no file 'parts/arm.robot.yaml'" in line for line in output)
+    assert output[-3:] == ["parts/arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
 
 
 def test_files_that_change_together_are_one_change(watch: Callable[..., list[str]]):
@@ -209,23 +209,23 @@ def test_files_that_change_together_are_one_change(watch: Callable[..., list[str
         sets("cell.robot.yaml", CELL + "\n")(folder)
         sets("arm.robot.yaml", ARM + "\n")(folder)
 
-    told = watch(both)
-    assert told[2:] == ["cell.robot.yaml and 1 more changed", "out/cell.urdf is up to date", WATCHING]
+    output = watch(both)
+    assert output[2:] == ["cell.robot.yaml and 1 more changed", "out/cell.urdf is up to date", WATCHING]
 
 
 def test_what_changes_while_the_command_runs_is_seen(watch: Callable[..., list[str]]):
-    told = watch(nothing, words=("--then", "[ -e done ] || { touch done; echo '# more' >> arm.robot.yaml; }"))
-    assert told[2:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
+    output = watch(nothing, words=("--then", "[ -e done ] || { touch done; echo '# more' >> arm.robot.yaml; }"))
+    assert output[2:] == ["arm.robot.yaml changed", "out/cell.urdf is up to date", WATCHING]
 
 
 def test_a_command_runs_after_each_compile_without_errors(cell: Path, watch: Callable[..., list[str]]):
-    told = watch(
+    output = watch(
         sets("arm.robot.yaml", ARM.replace("hand: ", "hand: {colision: visual}")),
         sets("arm.robot.yaml", ARM.replace("hand", "gripper")),
         words=("--then", "grep -c link out/cell.urdf >> counts; exit 3"),
     )
     assert len((cell / "counts").read_text().split()) == 2
-    assert told.count("'grep -c link out/cell.urdf >> counts; exit 3' ended with exit code 3") == 2
+    assert output.count("'grep -c link out/cell.urdf >> counts; exit 3' ended with exit code 3") == 2
 
 
 def test_a_failing_command_is_reported_even_with_quiet(watch: Callable[..., list[str]]):
@@ -253,13 +253,13 @@ def test_what_is_saved_while_it_is_compiled_is_compiled_again(
 
 
 def test_a_refused_output_is_reported_until_it_is_fixed(watch: Callable[..., list[str]]):
-    told = watch(
+    output = watch(
         sets("cell.robot.yaml", CELL.replace("arm.robot.yaml", "out/cell.urdf")),
         sets("cell.robot.yaml", CELL),
         words=("-q",),
     )
     refused = "'out/cell.urdf' would be replaced, and the robot is made from it; write to another place"
-    assert told == [f"linkforge watch: {refused}"]
+    assert output == [f"linkforge watch: {refused}"]
 
 
 def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watch: Callable[..., list[str]]):
@@ -273,13 +273,13 @@ def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watc
         (folder / "out").unlink()
         sets("arm.robot.yaml", ARM.replace("hand", "finger"))(folder)
 
-    told = watch(put_a_file_there, make_room)
-    assert any(line.startswith("linkforge watch: cannot write 'out/cell.urdf'") for line in told)
-    assert told[-2:] == ["wrote out/cell.urdf", WATCHING]
+    output = watch(put_a_file_there, make_room)
+    assert any(line.startswith("linkforge watch: cannot write 'out/cell.urdf'") for line in output)
+    assert output[-2:] == ["wrote out/cell.urdf", WATCHING]
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         (("cell.robot.yaml",), "watch renews files, so it takes -o with a folder or a file"),
         (("-", "-o", "out/"), "takes a file, not standard input"),
@@ -288,10 +288,10 @@ def test_a_file_where_the_output_has_its_folder_does_not_end_it(cell: Path, watc
     ],
 )
 def test_what_cannot_be_watched_is_reported(
-    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], said: str
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], expected: str
 ):
     assert main(["watch", *words]) == 2
-    assert said in capfd.readouterr().err
+    assert expected in capfd.readouterr().err
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")

@@ -89,7 +89,7 @@ def test_without_a_map_the_header_tells_how_to_get_one(build: Path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "expected"),
     [
         (("build/cell.urdf",), "takes a line of a file, such as robot.urdf:81, or a file and a name in it"),
         (("build/cell.urdf:3", "left_elbow"), "takes a line of a file"),
@@ -101,10 +101,10 @@ def test_without_a_map_the_header_tells_how_to_get_one(build: Path):
         (("build:3",), "there is no file 'build'"),
     ],
 )
-def test_wrong_usage_is_reported(build: Path, words: tuple[str, ...], said: str):
+def test_wrong_usage_is_reported(build: Path, words: tuple[str, ...], expected: str):
     run = linkforge("where", *words, cwd=build)
     assert (run.returncode, run.stdout) == (2, "")
-    assert said in run.stderr
+    assert expected in run.stderr
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"version": 9}', "[" * 100_000])

@@ -119,11 +119,55 @@ joints:
         assert f"base: {{post: Adjacent, ball: {reason}}}" in done.stdout
 
 
+FOLDED = """
+links:
+  base: {collision: {sphere: 0.1}}
+  arm: {collision: {sphere: 0.1}}
+  hand: {collision: {sphere: 0.1, origin: [0, 0, -1]}}
+  thumb: {collision: {sphere: 0.1, origin: [0, 0, -1]}}
+joints:
+  shoulder: {type: fixed, parent: base, child: arm, origin: [0, 0, 1]}
+  elbow: {type: continuous, parent: arm, child: hand, axis: x}
+  knuckle: {type: continuous, parent: arm, child: thumb, axis: y}
+"""
+
+
+def test_pairs_that_only_the_default_pose_disables_are_noted_once(tmp_path: Path):
+    path = tmp_path / "folded.robot.yaml"
+    path.write_text(HEAD + FOLDED, "utf-8")
+    done = linkforge("collisions", path.name, cwd=tmp_path)
+    assert "base: {arm: Adjacent, hand: Default, thumb: Default}" in done.stdout
+    assert (
+        "folded.robot.yaml:2:7: note: base and hand collide in the default pose, but not in most others, where no "
+        "check will find it; list them in 'enabled_collisions' to keep the check" in done.stderr
+    )
+    assert done.stderr.count("LF7703") == 1
+
+
+def test_enabled_pairs_are_not_disabled(tmp_path: Path):
+    path = tmp_path / "folded.robot.yaml"
+    enabled = (
+        "semantic: {enabled_collisions: {thumb: {base: User, hand: }}, disabled_collisions: {hand: {base: User}}}\n"
+    )
+    path.write_text(HEAD + FOLDED + enabled, "utf-8")
+    done = linkforge("collisions", path.name, cwd=tmp_path)
+    assert done.stdout == (
+        "disabled_collisions:\n  base: {arm: Adjacent, hand: User}\n  arm: {hand: Adjacent, thumb: Adjacent}\n"
+    )
+    assert done.stderr.endswith("4 pairs need no check (3 Adjacent, 1 User), 2 do\n")
+
+
 @pytest.mark.parametrize("word", ["0", "-1", "1e3"])
 def test_samples_are_a_whole_number(word: str, arm: Path):
     done = linkforge("collisions", arm.name, "--samples", word, cwd=arm.parent)
     assert done.returncode == 2
     assert f"takes a whole number above 0, found '{word}'" in done.stderr
+
+
+def test_a_seed_is_not_negative(arm: Path):
+    done = linkforge("collisions", arm.name, "--seed", "-1", cwd=arm.parent)
+    assert done.returncode == 2
+    assert "takes a whole number from 0 on, found '-1'" in done.stderr
 
 
 def test_missing_libraries_are_named_with_the_way_to_install_them(arm: Path, monkeypatch: pytest.MonkeyPatch):

@@ -102,11 +102,11 @@ def test_no_change_of_a_single_field_is_silent(part: object):
 def test_every_field_of_every_part_was_changed_by_that():
     changed = {(type(part), field) for part in PARTS for field, other in changed_parts(part) if other != part}
     kinds = [getattr(models, name) for name in {*CLASSES.values(), *WITHOUT_SCHEMA}]
-    told = {
+    compared = {
         (kind.__name__, field.name) for kind in kinds if is_dataclass(kind) for field in fields(kind) if field.compare
     }
     # No other type of hardware takes the joints of that robot; `test_robots` changes it.
-    assert told - {(kind.__name__, field) for kind, field in changed} - {("Ros2Control", "type")} == set()
+    assert compared - {(kind.__name__, field) for kind, field in changed} - {("Ros2Control", "type")} == set()
 
 
 def test_no_field_of_a_robot_is_silent():

@@ -60,7 +60,7 @@ def robot_of(spec: str) -> Robot:
     return compile_text(spec).result()
 
 
-def told(old: str, new: str) -> list[str]:
+def differences_of(old: str, new: str) -> list[str]:
     assert old in SPEC
     differences = compare(robot_of(SPEC), robot_of(SPEC.replace(old, new)))
     return [f"{one.kind} {'/'.join(one.path)}: {one.text}" for one in differences]
@@ -96,7 +96,7 @@ def told(old: str, new: str) -> list[str]:
     ],
 )  # fmt: skip
 def test_a_change_is_shown_with_units_and_its_amount(old: str, new: str, text: str):
-    assert text in told(old, new)
+    assert text in differences_of(old, new)
 
 
 @pytest.mark.parametrize(
@@ -248,7 +248,7 @@ def test_two_values_are_shown_until_they_differ():
 
 
 def test_a_new_shape_is_shown_with_its_size_and_pose():
-    assert told(
+    assert differences_of(
         "cart: {visual: {sphere: {radius: 0.1}}}",
         "cart: {visual: [{sphere: {radius: 0.1}}, {box: [1, 1, 2], origin: [0, 0, 5 mm]}]}",
     ) == ["added links/cart/visual/1: box, size 1 1 2 m, at 0 0 0.005 m"]
@@ -256,13 +256,15 @@ def test_a_new_shape_is_shown_with_its_size_and_pose():
 
 def test_of_a_long_path_both_ends_are_shown():
     path = f"package://{'_'.join(['long'] * 20)}/meshes/visual/upper.stl"
-    [text] = told("package://arm/upper.stl", path)
+    [text] = differences_of("package://arm/upper.stl", path)
     assert text.endswith("→ package://long_long_long_long_long…g_long_long/meshes/visual/upper.stl")
 
 
 def test_a_new_state_is_shown_with_its_positions_and_units():
     text = "added semantic/group_states/arm/out: elbow 90 deg, rail 0.5 m"
-    assert told("home: {elbow: 0, rail: 0}", "home: {elbow: 0, rail: 0}, out: {elbow: 90 deg, rail: 0.5}") == [text]
+    assert differences_of(
+        "home: {elbow: 0, rail: 0}", "home: {elbow: 0, rail: 0}, out: {elbow: 90 deg, rail: 0.5}"
+    ) == [text]
 
 
 def test_a_change_from_revolute_to_prismatic_shows_both_units():
@@ -282,8 +284,8 @@ def test_a_change_from_revolute_to_prismatic_shows_both_units():
 
 def test_data_of_the_author_are_compared_one_by_one():
     before, after = (
-        robot_of(SPEC.replace("name: arm", f"name: arm\nmetadata: {{{said}}}"))
-        for said in (
+        robot_of(SPEC.replace("name: arm", f"name: arm\nmetadata: {{{metadata}}}"))
+        for metadata in (
             "mass: 1.5, tested: [1, 2, {by: me}], order: [1, 2], gone: null, kept: null",
             "mass: 1.5000000001, tested: [1, 3, {by: you}], order: [2, 1, 0], new: null, kept: null",
         )
@@ -323,8 +325,8 @@ def test_many_shapes_of_one_link_find_their_own_in_time_that_grows_with_them():
 
 
 def test_a_change_is_reported_once():
-    assert len(told("color: [1, 0, 0, 1]", "color: [0, 0, 1, 1]")) == 1
-    assert len(told("parent: base, child: upper", "parent: torso, child: upper")) == 1
+    assert len(differences_of("color: [1, 0, 0, 1]", "color: [0, 0, 1, 1]")) == 1
+    assert len(differences_of("parent: base, child: upper", "parent: torso, child: upper")) == 1
 
 
 def test_additions_and_removals_are_shown_in_few_words():
@@ -372,8 +374,11 @@ def test_a_shape_colored_by_another_visual_in_mujoco_is_reported(before: str, af
 
 def test_a_material_written_after_the_links_is_reported():
     after = SPEC.replace("red: {color: [1, 0, 0, 1]}", "red: {color: [1, 0, 0, 1], after_links: true}")
-    (told,) = compare(robot_of(SPEC), robot_of(after))
-    assert (told.path, told.text) == (("materials", "red", "after_links"), "before the links → after the links")
+    (difference,) = compare(robot_of(SPEC), robot_of(after))
+    assert (difference.path, difference.text) == (
+        ("materials", "red", "after_links"),
+        "before the links → after the links",
+    )
 
 
 def test_float_noise_below_the_tolerance_is_not_reported():
@@ -406,7 +411,7 @@ def test_renamed_links_and_joints_are_reported_without_references_to_them():
 
 def test_a_renamed_state_is_recognized_unless_another_is_similar():
     old, new = "arm: {home: {elbow: 0, rail: 0}}", "arm: {rest: {elbow: 0, rail: 0}}"
-    assert told(old, new) == ["renamed semantic/group_states/arm/rest: was 'home'"]
+    assert differences_of(old, new) == ["renamed semantic/group_states/arm/rest: was 'home'"]
     before, after = (
         robot_of(SPEC.replace("elbow", name).replace(old.replace("elbow", name), state))
         for name, state in (("elbow", old), ("hinge", new.replace("elbow", "hinge")))
@@ -417,7 +422,7 @@ def test_a_renamed_state_is_recognized_unless_another_is_similar():
     ]
     assert ("group state", "arm/home", "arm/rest") in removed_public_names(before, after)
     twins = "arm: {rest: {elbow: 0, rail: 0}, zero: {elbow: 0, rail: 0}}"
-    assert [text.split()[0] for text in told(old, twins)] == ["added", "added", "removed"]
+    assert [text.split()[0] for text in differences_of(old, twins)] == ["added", "added", "removed"]
 
 
 def test_two_alike_are_no_rename():

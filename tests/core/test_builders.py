@@ -243,11 +243,11 @@ def test_planning_is_set_before_the_links_are_finished():
     semantic.disable_collisions("a", "b").disable_collisions("b", "a").enable_collisions("a", "c")
     semantic.disable_default_collisions("a").joint_property("j", "p", "v").approximate_link_collision("a", [])
     assert semantic.done() is builder
-    said = builder.build().semantic
-    assert said.groups[0].chains == (Chain("base", "tip"),)
-    assert said.group_states[0].joint_values == {"j": (1.0,)}
-    assert (said.virtual_joints[0].parent_frame, said.virtual_joints[0].type) == ("world", "fixed")
-    assert len(said.disabled_collisions) == 1
+    description = builder.build().semantic
+    assert description.groups[0].chains == (Chain("base", "tip"),)
+    assert description.group_states[0].joint_values == {"j": (1.0,)}
+    assert (description.virtual_joints[0].parent_frame, description.virtual_joints[0].type) == ("world", "fixed")
+    assert len(description.disabled_collisions) == 1
     with pytest.raises(RobotValidationError, match="together"):
         semantic.group("half", tip_link="tip")
     with pytest.raises(RobotValidationError, match="Duplicate"):

@@ -186,14 +186,14 @@ def test_states_of_one_name_belong_to_their_groups():
 
 
 @pytest.mark.parametrize(
-    "said",
+    "entries",
     [{"end_effectors": [EndEffector("tool", "g", "palm")]}, {"passive_joints": [PassiveJoint("wheel")]}],
     ids=["end effector", "passive joint"],
 )
-def test_nothing_semantic_is_written_twice(said):
-    robot = station().add_semantic(SemanticRobotDescription(**said))
+def test_nothing_semantic_is_written_twice(entries):
+    robot = station().add_semantic(SemanticRobotDescription(**entries))
     with pytest.raises(RobotModelError, match="Duplicate"):
-        robot.merge(with_only(semantic=SemanticRobotDescription(**said)), "table", "mount")
+        robot.merge(with_only(semantic=SemanticRobotDescription(**entries)), "table", "mount")
 
 
 def test_equal_materials_may_share_a_name():
@@ -344,25 +344,25 @@ def test_a_link_of_a_user_class_makes_its_own_copy():
     assert [link.name for link in robot.links] == ["left_marked_a"]
 
 
-def told(method):
+def recording(method):
     """Wrap `with_prefix` to record each call."""
 
     @wraps(method)
     def with_prefix(part, prefix):
-        return replace(method(part, prefix), name="told")
+        return replace(method(part, prefix), name="recorded")
 
     return with_prefix
 
 
-class Told(Visual):
-    with_prefix = told(Visual.with_prefix)
+class Recording(Visual):
+    with_prefix = recording(Visual.with_prefix)
 
 
 def test_a_part_with_a_wrapped_copy_method_makes_its_own_copy():
-    visuals = (Told(Box(Vector3(1, 1, 1))),)
+    visuals = (Recording(Box(Vector3(1, 1, 1))),)
     merged = Robot("station").merge(Robot("arm", links=[Link("a", visuals=visuals)]), None, None, "left_")
-    assert merged.links[0].visuals[0].name == "told"
-    assert Link("a", visuals=visuals).with_prefix("left_").visuals[0].name == "told"
+    assert merged.links[0].visuals[0].name == "recorded"
+    assert Link("a", visuals=visuals).with_prefix("left_").visuals[0].name == "recorded"
 
 
 class Weak(str):

@@ -315,7 +315,7 @@ def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypat
 
 
 @pytest.mark.parametrize(
-    ("face", "told"),
+    ("face", "expected"),
     [
         (b"f 1 2 99999999999999", "line 5: the face has a vertex 99999999999999, but the file has 3"),
         (b"f 1/1 -0/1 2/1", "line 5: the face has a vertex 0, but the file has 3"),
@@ -325,8 +325,8 @@ def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypat
         (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is no number of a vertex"),
     ],
 )
-def test_a_corner_without_a_vertex_is_reported_with_its_line(face, told):
-    assert fault(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + face + b"\n", "part.obj").message == told
+def test_a_corner_without_a_vertex_is_reported_with_its_line(face, expected):
+    assert fault(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + face + b"\n", "part.obj").message == expected
 
 
 def test_hollows_are_counted(monkeypatch):

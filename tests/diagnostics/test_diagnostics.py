@@ -54,9 +54,9 @@ def test_the_nearest_name_is_that_of_difflib(name: str):
 def test_nothing_is_suggested_when_a_compile_has_looked_for_long(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(suggest, "_STEPS_OF_A_COMPILE", 100)
     with suggest.suggestion_budget():
-        asked = [nearest("hnad", ["hand", "base"]) for _ in range(20)]
-    assert asked[0] == "hand"
-    assert asked[-1] is None
+        suggestions = [nearest("hnad", ["hand", "base"]) for _ in range(20)]
+    assert suggestions[0] == "hand"
+    assert suggestions[-1] is None
     assert nearest("hnad", ["hand", "base"]) == "hand"
 
 
@@ -66,8 +66,8 @@ def test_an_import_looks_no_longer_than_a_compile(monkeypatch: pytest.MonkeyPatc
         f"<joint name='j{i}' type='fixed'><parent link='hnad'/><child link='l{i}'/></joint><link name='l{i}'/>"
         for i in range(20)
     )
-    told = import_urdf("r.urdf", text=f"<robot name='r'><link name='hand'/>{joints}</robot>").diagnostics
-    wrong = [one.message for one in told if one.message.startswith("no link named 'hnad'")]
+    diagnostics = import_urdf("r.urdf", text=f"<robot name='r'><link name='hand'/>{joints}</robot>").diagnostics
+    wrong = [one.message for one in diagnostics if one.message.startswith("no link named 'hnad'")]
     assert "; did you mean 'hand'?" in wrong[0]
     assert "; did you mean 'hand'?" not in wrong[-1]
 
@@ -95,18 +95,18 @@ def test_a_note_quotes_no_megabytes_nor_control_characters():
 
 def test_two_faults_that_differ_where_their_messages_leave_words_out_are_two():
     long = "a" * 5_000
-    told = [UNKNOWN.at(CHILD, name=f"{long}{letter}{long}") for letter in "bcb"]
-    assert len({one.message for one in told}) == 1
+    diagnostics = [UNKNOWN.at(CHILD, name=f"{long}{letter}{long}") for letter in "bcb"]
+    assert len({one.message for one in diagnostics}) == 1
     sink = Diagnostics()
-    sink.report_all(told)
+    sink.report_all(diagnostics)
     assert len(sink.sorted()) == 2
-    assert len(merge_reports({"the defaults": told[:1], "variant 'sim'": told[1:]})) == 2
+    assert len(merge_reports({"the defaults": diagnostics[:1], "variant 'sim'": diagnostics[1:]})) == 2
 
 
 def test_a_fault_in_a_module_tells_where_the_module_is_used():
-    told = UNKNOWN.at(SourceRef(YamlScalar("hnad", "hnad", CHILD), trail=(USE,)), name="hnad")
-    assert told.span == CHILD
-    assert told.notes == (Note("used here", USE),)
+    diagnostic = UNKNOWN.at(SourceRef(YamlScalar("hnad", "hnad", CHILD), trail=(USE,)), name="hnad")
+    assert diagnostic.span == CHILD
+    assert diagnostic.notes == (Note("used here", USE),)
 
 
 def test_the_same_fault_is_kept_once():
@@ -129,12 +129,12 @@ def test_diagnostics_sort_by_file_and_place():
     sink = Diagnostics()
     for place in (CHILD, USE, None):
         sink.report(UNKNOWN.at(place, name="x"))
-    assert [told.span for told in sink.sorted()] == [None, USE, CHILD]
+    assert [diagnostic.span for diagnostic in sink.sorted()] == [None, USE, CHILD]
 
 
 def test_the_text_shows_the_line_and_a_caret_under_the_words():
-    told = UNKNOWN.at(CHILD, name="hnad", notes=[Note("used here", USE)])
-    assert render_text([told]) == dedent("""\
+    diagnostic = UNKNOWN.at(CHILD, name="hnad", notes=[Note("used here", USE)])
+    assert render_text([diagnostic]) == dedent("""\
         arm.robot.yaml:2:17: error: no link named 'hnad' [LF4102]
              2 | \telbow: {child: hnad}
                | \t               ^^^^
@@ -145,9 +145,9 @@ def test_the_text_shows_the_line_and_a_caret_under_the_words():
 
 
 def test_colors_are_only_written_on_request():
-    told = UNKNOWN.at(CHILD, name="hnad")
-    assert "\033[1;31merror:" in render_text([told], colour=True)
-    assert "\033" not in render_text([told])
+    diagnostic = UNKNOWN.at(CHILD, name="hnad")
+    assert "\033[1;31merror:" in render_text([diagnostic], colour=True)
+    assert "\033" not in render_text([diagnostic])
 
 
 def test_wide_characters_take_two_columns_and_control_characters_never_reach_the_terminal():

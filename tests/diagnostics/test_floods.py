@@ -24,10 +24,10 @@ def test_one_place_is_reported_three_times_and_the_rest_counted():
     for _ in range(2):
         sink.report_all(ERROR.at(at(1), name=number) for number in range(1000))
     sink.report(ERROR.at(at(2), name="other"))
-    told = sink.sorted()
-    assert [one.message for one in told] == ["no 0", "no 1", "no 2", "no other"]
-    assert [note.message for one in told for note in one.notes] == ["and 997 more like this at the same place"]
-    assert summary(told) == "1,001 errors"
+    diagnostics = sink.sorted()
+    assert [one.message for one in diagnostics] == ["no 0", "no 1", "no 2", "no other"]
+    assert [note.message for one in diagnostics for note in one.notes] == ["and 997 more like this at the same place"]
+    assert summary(diagnostics) == "1,001 errors"
 
 
 def test_text_tells_three_times_of_a_name_that_a_file_has_nowhere_and_counts_the_rest():
@@ -36,10 +36,10 @@ def test_text_tells_three_times_of_a_name_that_a_file_has_nowhere_and_counts_the
     sink.report_all(UNKNOWN_LINK.at(at(line), name="leg") for line in range(1, 4))
     sink.report(UNKNOWN_LINK.at(Span(other, 1, 1, 1, 2), name="arm"))
     sink.report_all(ERROR.at(at(line), name="x") for line in range(1, 6))
-    told = sink.sorted()
+    diagnostics = sink.sorted()
     # What a program reads has each of them.
-    assert (len(told), summary(told)) == (18, "18 errors")
-    lines = [line for line in render_first(told).splitlines() if "arm" in line or "more" in line]
+    assert (len(diagnostics), summary(diagnostics)) == (18, "18 errors")
+    lines = [line for line in render_first(diagnostics).splitlines() if "arm" in line or "more" in line]
     assert lines == [
         "a.yaml:1:1: error: no link named 'arm' [LF4102]",
         "a.yaml:2:1: error: no link named 'arm' [LF4102]",
@@ -100,9 +100,9 @@ def test_warnings_beyond_a_thousand_are_counted_and_end_nothing():
     sink = Diagnostics()
     sink.report_all(WARNING.at(at(line), name="x") for line in range(MAX_KEPT + 5))
     sink.report(ERROR.at(at(9999), name="y"))
-    told = sink.sorted()
-    assert (told[-1].code, told[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not shown")
-    assert told[-2].message == "no y"
+    diagnostics = sink.sorted()
+    assert (diagnostics[-1].code, diagnostics[-1].message) == (MORE_WARNINGS, "5 more warnings and notes are not shown")
+    assert diagnostics[-2].message == "no y"
 
 
 def test_the_command_shows_the_first_errors_before_any_warning():

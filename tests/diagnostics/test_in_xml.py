@@ -4,7 +4,7 @@ from linkforge_compile import compile_file
 from linkforge_compile.diagnostics.codes import REGISTER
 from tests.conftest import ROOT
 from tests.urdf_case import expected_in_xml
-from tests.yaml_case import told
+from tests.yaml_case import findings_of
 
 CASE = ROOT / "tests" / "cases" / "urdf_in_its_words"
 TOLD_ELSEWHERE = {
@@ -17,7 +17,7 @@ TOLD_ELSEWHERE = {
 
 
 def test_messages_for_xml_have_their_own_wording():
-    found = told(compile_file(CASE / "cell.robot.yaml"))
+    found = findings_of(compile_file(CASE / "cell.robot.yaml"))
     files = [CASE / name for name in ("arm.urdf", "arm.srdf")]
     assert found == {one for file in files for one in expected_in_xml(file.name, file.read_text("utf-8"))}
     with_words = {code.id for code in REGISTER.values() if code.in_xml}

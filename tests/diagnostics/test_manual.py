@@ -39,11 +39,11 @@ def test_a_wrong_example_is_reported_and_the_right_one_is_not(
 ):
     sections = Page.read(path).sections
     sign = f"[{path.stem}]"
-    _, told_of_wrong = run(Example.read(sections["Wrong"]), tmp_path / "wrong", capfd)
-    assert sign in told_of_wrong
-    exit_code, told_of_right = run(Example.read(sections["Right"]), tmp_path / "right", capfd)
-    assert exit_code == 0, told_of_right
-    assert sign not in told_of_right
+    _, wrong_output = run(Example.read(sections["Wrong"]), tmp_path / "wrong", capfd)
+    assert sign in wrong_output
+    exit_code, right_output = run(Example.read(sections["Right"]), tmp_path / "right", capfd)
+    assert exit_code == 0, right_output
+    assert sign not in right_output
 
 
 def test_every_code_has_a_page_and_every_page_a_code():

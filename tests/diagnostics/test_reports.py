@@ -14,7 +14,7 @@ REPORT = (HEAVY, ERROR, ODD, HINT)
 
 
 @pytest.mark.parametrize(
-    ("selection", "told"),
+    ("selection", "expected"),
     [
         (Selection(), [HEAVY, ERROR, ODD, HINT]),
         (Selection(select=("LF6",)), [HEAVY, ERROR]),
@@ -24,13 +24,13 @@ REPORT = (HEAVY, ERROR, ODD, HINT)
         (Selection(errors_only=True), [ERROR]),
     ],
 )
-def test_warnings_and_notes_are_selected_and_errors_always_reported(selection: Selection, told: list[object]):
-    assert list(selection.of(REPORT)) == told
+def test_warnings_and_notes_are_selected_and_errors_always_reported(selection: Selection, expected: list[object]):
+    assert list(selection.of(REPORT)) == expected
 
 
 def test_warnings_are_errors_on_request_and_notes_are_not():
-    told = Selection(ignore=("LF6",), errors=("LF",)).of(REPORT)
-    assert [(one.code.id, one.severity) for one in told] == [
+    diagnostics = Selection(ignore=("LF6",), errors=("LF",)).of(REPORT)
+    assert [(one.code.id, one.severity) for one in diagnostics] == [
         ("LF5001", Severity.ERROR),
         ("LF5606", Severity.ERROR),
         ("LF5702", Severity.NOTE),
@@ -39,8 +39,8 @@ def test_warnings_are_errors_on_request_and_notes_are_not():
 
 
 def test_quiet_keeps_the_warnings_that_are_errors():
-    told = Selection(errors=("LF",), errors_only=True).of(REPORT)
-    assert [one.code.id for one in told] == ["LF6001", "LF5001", "LF5606"]
+    diagnostics = Selection(errors=("LF",), errors_only=True).of(REPORT)
+    assert [one.code.id for one in diagnostics] == ["LF6001", "LF5001", "LF5606"]
 
 
 FAULT = Code("LF0001", Severity.ERROR, "{what} is wrong")
@@ -57,8 +57,8 @@ def test_each_fault_is_reported_once_with_its_place():
         "variant 'a'": [fault("some", 2), fault("all", 3)],
         "variant 'b'": [fault("all", 3), fault("one", 1), fault("some", 2)],
     }
-    told = merge_reports(runs)
-    assert [(one.message, [note.message for note in one.notes]) for one in told] == [
+    diagnostics = merge_reports(runs)
+    assert [(one.message, [note.message for note in one.notes]) for one in diagnostics] == [
         ("one is wrong", ["with variant 'b' only"]),
         ("some is wrong", ["with variant 'a' and variant 'b'"]),
         ("all is wrong", []),

@@ -36,7 +36,7 @@ class Completion(NamedTuple):
     """A completion: the word, its description, and the inserted text."""
 
     label: str
-    told: str
+    description: str
     inserted: str
 
 

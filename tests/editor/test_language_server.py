@@ -145,7 +145,7 @@ OFFERED = {
     "a new group": ("semantic:\n  groups:\n    |", ["group"]),
     "in a group": (
         "semantic:\n  groups:\n    arm:\n      |",
-        ["chain", "chains", "group", "joints", "links", "subgroups"],
+        ["chain", "chains", "group", "joints", "kinematics", "links", "subgroups"],
     ),
     "in a chain": ("semantic:\n  groups:\n    arm: {chain: {ba|}}", ["base_link", "chain", "tip_link"]),
     "a group's states": ("semantic:\n  group_states:\n    arm: |", ["state"]),
@@ -284,7 +284,9 @@ def test_what_is_put_in(server: LanguageServer, label: str, place: tuple[str, st
 
 
 def test_the_keys_that_stand_everywhere_are_offered_with_what_they_mean(server: LanguageServer):
-    found = {completion.label: completion.told for completion in server.completions(f"{HEAD}joints:\n  elbow:\n    |")}
+    found = {
+        completion.label: completion.description for completion in server.completions(f"{HEAD}joints:\n  elbow:\n    |")
+    }
     assert found.keys() >= EVERYWHERE
     assert "once for each item of a list" in found["for"]
     assert "[rad]" in found["limits"] or "How far, how hard" in found["limits"]

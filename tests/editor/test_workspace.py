@@ -268,8 +268,8 @@ def test_a_name_that_is_new_is_no_fault_and_a_wrong_key_is_one(server: LanguageS
     new = f"{HEAD}joints: {{weld: {{type: fixed, parent: fresh, child: $(name)}}}}\n"
     assert server.faults(new, f"{shop}/cells/cell.robot.yaml") == []
     wrong = f"{HEAD}joints: {{weld: {{parnt: table}}}}\n"
-    told = [Fault("parnt", "Property parnt is not allowed.")]
-    assert server.faults(wrong, f"{shop}/cells/cell.robot.yaml") == told
+    expected = [Fault("parnt", "Property parnt is not allowed.")]
+    assert server.faults(wrong, f"{shop}/cells/cell.robot.yaml") == expected
 
 
 @pytest.fixture(scope="session")
@@ -330,12 +330,14 @@ def test_a_name_is_put_in_as_yaml_reads_it(server: LanguageServer, folder: Path)
 def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     root = written(tmp_path)
     run = linkforge("schema", "--workspace", cwd=root)
-    told = "names of faulty.robot.yaml may be missing; `linkforge check` tells why\n"
-    assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{told}wrote .linkforge/robot.schema.json\n")
+    expected = "names of faulty.robot.yaml may be missing; `linkforge check` tells why\n"
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{expected}wrote .linkforge/robot.schema.json\n")
     again = linkforge("schema", "--workspace", str(root), "-o", "here.json", cwd=root)
-    assert again.stderr == f"{told.replace('faulty.r', f'{root}/faulty.r')}wrote here.json\n"
+    assert again.stderr == f"{expected.replace('faulty.r', f'{root}/faulty.r')}wrote here.json\n"
     assert (root / "here.json").read_bytes() == (root / ".linkforge/robot.schema.json").read_bytes()
-    assert linkforge("schema", "--workspace", cwd=root).stderr == f"{told}.linkforge/robot.schema.json is up to date\n"
+    assert (
+        linkforge("schema", "--workspace", cwd=root).stderr == f"{expected}.linkforge/robot.schema.json is up to date\n"
+    )
     assert linkforge("schema", "--workspace", "nowhere", cwd=root).returncode == 2
 
 
@@ -343,8 +345,8 @@ def test_included_files_without_a_schema_are_named(server: LanguageServer, folde
     cell = "linkforge: 1\nname: cell\ninclude: [parts/colors.yaml, parts/steel.robot.yaml]\nlinks: {table: }\n"
     files = {"cell.robot.yaml": cell, "parts/colors.yaml": PALETTE, "parts/steel.robot.yaml": "linkforge: 1\n"}
     root = written(folder / "included", files)
-    told = linkforge("schema", "--workspace", cwd=root).stderr
-    assert told.splitlines()[0] == (
+    stderr = linkforge("schema", "--workspace", cwd=root).stderr
+    assert stderr.splitlines()[0] == (
         f"'parts/colors.yaml' has no schema in editors; begin it with '{MODELINE.strip()}', or call it NAME.robot.yaml"
     )
     (root / "parts/colors.yaml").write_text(f"# Colors of the cell.\n{MODELINE}{PALETTE}")
@@ -360,8 +362,8 @@ def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):
     below = root / "parts"
     assert linkforge("schema", "--workspace", cwd=below).stderr == "../.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", ".", cwd=below).stderr == "wrote .linkforge/robot.schema.json\n"
-    told = linkforge("schema", "--workspace", cwd=root).stderr
-    assert told.startswith("'parts' has a schema of its own; `linkforge schema --workspace parts` renews it\n")
+    stderr = linkforge("schema", "--workspace", cwd=root).stderr
+    assert stderr.startswith("'parts' has a schema of its own; `linkforge schema --workspace parts` renews it\n")
     (root / ".linkforge" / "robot.schema.json").unlink()
     (below / "hand.robot.yaml").write_text(ARM)
     assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote parts/.linkforge/robot.schema.json\n"

@@ -15,7 +15,7 @@ class Assembled(NamedTuple):
     """An instance and the diagnostics of the way to it, as text."""
 
     instance: Instance
-    told: list[str]
+    messages: list[str]
 
     @property
     def metadata(self) -> object:

@@ -19,7 +19,7 @@ def test_a_table_is_reached_into(tmp_path):
         """,
         folder=tmp_path,
     )
-    assert found.told == []
+    assert found.messages == []
     assert found.metadata == {
         "mass": Quantity(4.0, Dimension.MASS),
         "second": "b",
@@ -41,14 +41,14 @@ def test_a_table_is_reached_into(tmp_path):
 def test_the_tags_of_xacro_make_bare_radians(tmp_path, text, angle):
     (tmp_path / "table.yaml").write_text(f"[{text}]" if "/" not in text else f"- {text}")
     found = assemble("data: {table: table.yaml}\nmetadata: {a: '$(table[0])'}\n", folder=tmp_path)
-    assert (found.told, found.metadata) == ([], {"a": angle})
+    assert (found.messages, found.metadata) == ([], {"a": angle})
 
 
 @pytest.mark.parametrize("text", ["ninety", "90 deg", "prefix", "true", "'a' + 'b'", "1/0", "link('x')", ""])
 def test_a_tag_needs_a_number(tmp_path, text):
     (tmp_path / "table.yaml").write_text(f'a: !degrees "{text}"\n')
     found = assemble("data: {table: table.yaml}\nmetadata: {a: $(table.a)}\n", folder=tmp_path)
-    assert (found.told, found.metadata) == (
+    assert (found.messages, found.metadata) == (
         [f"'!degrees' must be followed by a number, found '{text}'"],
         {"a": "FAULT"},
     )
@@ -80,7 +80,7 @@ def test_the_path_is_relative_to_the_file_that_writes_it(tmp_path):
         """,
         folder=tmp_path,
     )
-    assert found.told == []
+    assert found.messages == []
     plain, chosen = map(metadata_of, found.instance.modules)
     same = {"own": "arms/own.yaml", "shared": "arms/deep/shared.yaml"}
     assert plain == {**same, "set": "arms/own.yaml", "again": "arms/own.yaml"}
@@ -90,7 +90,7 @@ def test_the_path_is_relative_to_the_file_that_writes_it(tmp_path):
 def test_a_file_that_is_named_twice_is_read_once(tmp_path):
     (tmp_path / "table.yaml").write_text("a: !half 1\n")
     found = assemble("data: {one: table.yaml, two: ./table.yaml}\n", folder=tmp_path)
-    assert len(found.told) == 1
+    assert len(found.messages) == 1
 
 
 def test_files_are_bounded_together(tmp_path):

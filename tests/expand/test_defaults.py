@@ -5,7 +5,7 @@ from tests.expand.assembling import assemble, plain, write
 
 def section(name: str, text: str, *pairs: str) -> object:
     made = assemble(text, *pairs)
-    assert not made.told
+    assert not made.messages
     return plain(made.instance.tree.get(name))
 
 
@@ -117,7 +117,7 @@ def test_for_names_are_unknown_to_defaults():
         defaults: {joint: {origin: [0, 0, $(i)]}}
         joints: {j_$(i): {for: {i: 2}, type: fixed}}
     """)
-    assert made.told == ["no parameter, variable or 'for' name 'i' here"]
+    assert made.messages == ["no parameter, variable or 'for' name 'i' here"]
 
 
 def test_defaults_do_not_reach_into_modules_frames_and_mounts(tmp_path):
@@ -156,7 +156,7 @@ def test_a_copy_of_the_visuals_gets_the_default_of_collisions():
         links:
           arm: {visual: [{sphere: 1}, {box: [1, 1, 1], origin: [1, 0, 0], material: steel}], collision: visual}
     """)
-    assert found.told == []
+    assert found.messages == []
     assert plain(found.instance.tree.get("links").get("arm").get("collision")) == [
         {"sphere": 1, "origin": [0, 0, 1], "name": "hull"},
         {"box": [1, 1, 1], "origin": {"xyz": [1, 0, 0]}, "name": "hull"},
@@ -165,4 +165,4 @@ def test_a_copy_of_the_visuals_gets_the_default_of_collisions():
 
 def test_defaults_that_are_no_map_are_reported():
     found = assemble("variables: {list: [1]}\ndefaults: $(list)\nlinks: {arm: }\n")
-    assert found.told == ["'defaults' takes a map, found a list"]
+    assert found.messages == ["'defaults' takes a map, found a list"]

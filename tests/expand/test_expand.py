@@ -15,12 +15,12 @@ from tests.expand.assembling import assemble
 
 
 def test_an_expression_becomes_a_node_of_its_value_in_its_place():
-    instance, told = assemble("""
+    instance, messages = assemble("""
         variables: {size: [1, 2], limits: {lower: -1}}
         metadata: {list: $(size), map: $(limits), text: wheel_$(len(size)), number: "$(size[1] / 4)"}
     """)
     metadata = instance.tree.get("metadata")
-    assert not told
+    assert not messages
     assert [(item.value, item.span.line, item.span.column) for item in metadata.get("list")] == [(1, 4, 18), (2, 4, 18)]
     assert metadata.get("map").get("lower").value == -1
     assert metadata.get("text").value == "wheel_2"
@@ -68,10 +68,10 @@ def test_keys_are_computed_and_keep_their_place():
 
 
 def test_a_faulty_key_keeps_its_text_and_its_value_is_a_fault():
-    instance, told = assemble("links: {$(sid)_wheel: }")
+    instance, messages = assemble("links: {$(sid)_wheel: }")
     links = instance.tree.get("links")
     assert isinstance(links.child("$(sid)_wheel"), YamlFault)
-    assert len(told) == 1
+    assert len(messages) == 1
 
 
 def test_what_only_computes_the_robot_is_not_in_its_tree():
@@ -86,12 +86,12 @@ def test_what_only_computes_the_robot_is_not_in_its_tree():
 
 
 def test_free_parts_may_hold_text_that_looks_like_a_number():
-    _, told = assemble("""
+    _, messages = assemble("""
         variables: {low: 0.1}
         metadata: {width: $(low) m}
         semantic: {joint_properties: {elbow: {offset: -$(low)}}}
     """)
-    assert not told
+    assert not messages
 
 
 def test_name_and_standalone_are_always_in_scope():
@@ -115,29 +115,29 @@ def test_variables_are_computed_in_any_order():
 
 
 def test_a_circle_of_variables_is_reported_once_used_or_not():
-    _, told = assemble("variables: {a: $(b), b: $(a)}")
-    assert told == ["'a' is computed from itself: a → b → a"]
+    _, messages = assemble("variables: {a: $(b), b: $(a)}")
+    assert messages == ["'a' is computed from itself: a → b → a"]
 
 
 def test_a_variable_that_is_not_used_may_divide_by_zero_but_not_name_what_is_not_there():
-    _, told = assemble("""
+    _, messages = assemble("""
         parameters: {gear: 0}
         variables: {ratio: $(1 / gear), other: $(gaer)}
         metadata: {ratio: $(ratio if gear > 0 else 0)}
     """)
-    assert told == ["no parameter, variable or 'for' name 'gaer' here; did you mean 'gear'?"]
+    assert messages == ["no parameter, variable or 'for' name 'gaer' here; did you mean 'gear'?"]
 
 
 def test_names_of_a_section_that_is_at_fault_are_not_reported_again():
-    _, told = assemble("""
+    _, messages = assemble("""
         variables: 3
         metadata: {a: $(anything)}
     """)
-    assert len(told) == 1
+    assert len(messages) == 1
 
 
 def test_a_required_parameter_may_be_a_note_and_what_depends_on_it_silent():
-    instance, told = assemble(
+    instance, messages = assemble(
         """
         parameters: {reach: {type: length}, side: {type: string}}
         variables: {half: $(reach / 2)}
@@ -145,7 +145,7 @@ def test_a_required_parameter_may_be_a_note_and_what_depends_on_it_silent():
         """,
         unset=Unset.NOTE,
     )
-    assert told == ["nothing sets 'reach', 'side' here, so what depends on them is not checked"]
+    assert messages == ["nothing sets 'reach', 'side' here, so what depends on them is not checked"]
     assert isinstance(instance.tree.get("metadata").child("half"), YamlFault)
 
 
@@ -172,11 +172,11 @@ def test_the_text_that_expressions_give_is_bounded():
 
 
 def test_how_deep_a_computed_value_nests_is_bounded():
-    _, told = assemble(f"""
+    _, messages = assemble(f"""
         variables: {{a: {"[" * 60}1{"]" * 60}, b: {"[" * 60}$(a){"]" * 60}}}
         metadata: {{fits: $(a), list: $(b)}}
     """)
-    assert told == ["the expressions give more than 100 lists and maps inside each other"]
+    assert messages == ["the expressions give more than 100 lists and maps inside each other"]
 
 
 @pytest.mark.parametrize("use", ["$(half)", "$(-half)", "$(half + 1)", "$(min(half, 1))", "$(pose.half)"])

@@ -44,7 +44,7 @@ def arms(tmp_path: Path) -> Path:
 
 def test_the_prefix_is_the_whole_of_it(arms: Path):
     found = assemble((arms / "robot.robot.yaml").read_text().partition("\n")[2].partition("\n")[2], folder=arms)
-    assert found.told == []
+    assert found.messages == []
     assert found.metadata == {"own": "", "all": "left_hand_palm left_hinge"}
     assert metadata_of(module(found.instance, "left")) == {
         "own": "<left_>",
@@ -90,7 +90,7 @@ def test_a_path_is_absolute_and_belongs_to_the_file_that_writes_it(tmp_path: Pat
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "expected"),
     [
         ("metadata: {a: \"$(path('package://nowhere/x'))\"}", "no package named 'nowhere'"),
         ("metadata: {a: \"$(path('https://x/y'))\"}", "'https://x/y' cannot be found"),
@@ -110,14 +110,14 @@ def test_a_path_is_absolute_and_belongs_to_the_file_that_writes_it(tmp_path: Pat
         ),
     ],
 )
-def test_misplaced_expressions_are_reported(tmp_path: Path, text: str, told: str):
+def test_misplaced_expressions_are_reported(tmp_path: Path, text: str, expected: str):
     write(tmp_path, {"a.robot.yaml": "parameters: {a: {type: string, default: a}}\n"})
-    assert any(one.startswith(told) for one in assemble(text, folder=tmp_path).told)
+    assert any(one.startswith(expected) for one in assemble(text, folder=tmp_path).messages)
 
 
 def test_prefix_in_text_of_a_person_is_nothing_special():
     found = assemble("metadata: {a: 'the prefix: $(1 + 1)', b: the $$(prefix)}\n")
-    assert (found.told, found.metadata) == ([], {"a": "the prefix: 2", "b": "the $(prefix)"})
+    assert (found.messages, found.metadata) == ([], {"a": "the prefix: 2", "b": "the $(prefix)"})
 
 
 def test_what_an_override_writes_has_the_names_of_its_own_file_and_what_it_deletes_asks_for_none(tmp_path: Path):

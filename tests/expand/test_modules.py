@@ -92,9 +92,9 @@ def test_a_fault_of_a_module_has_a_note_of_its_use(tmp_path, sink):
         },
     )
     compiled(tmp_path, sink)
-    (told,) = sink
-    assert [note.message for note in told.notes] == ["used here"]
-    assert told.notes[0].span.text == "arm.robot.yaml"
+    (diagnostic,) = sink
+    assert [note.message for note in diagnostic.notes] == ["used here"]
+    assert diagnostic.notes[0].span.text == "arm.robot.yaml"
 
 
 def test_a_fault_of_an_argument_is_reported_at_the_argument(tmp_path, sink):
@@ -106,9 +106,9 @@ def test_a_fault_of_an_argument_is_reported_at_the_argument(tmp_path, sink):
         },
     )
     assembly = compiled(tmp_path, sink)
-    (told,) = sink
-    assert told.span.text == "3 kg"
-    assert [note.span.text for note in told.notes] == ["reach"]
+    (diagnostic,) = sink
+    assert diagnostic.span.text == "3 kg"
+    assert [note.span.text for note in diagnostic.notes] == ["reach"]
     assert metadata_of(assembly.modules[0]) == {"r": "FAULT"}
 
 
@@ -194,11 +194,11 @@ def test_the_circle_is_reported_with_each_of_its_lines(tmp_path, sink):
         },
     )
     compiled(tmp_path, sink)
-    (told,) = sink
+    (diagnostic,) = sink
     path = "robot.robot.yaml → parts/a.robot.yaml → parts/b.robot.yaml → robot.robot.yaml"
-    assert told.message == f"modules use each other in a cycle: {path}"
-    assert told.span.text == "../robot.robot.yaml"
-    assert [note.span.text for note in told.notes[:2]] == ["parts/a.robot.yaml", "b.robot.yaml"]
+    assert diagnostic.message == f"modules use each other in a cycle: {path}"
+    assert diagnostic.span.text == "../robot.robot.yaml"
+    assert [note.span.text for note in diagnostic.notes[:2]] == ["parts/a.robot.yaml", "b.robot.yaml"]
 
 
 def test_uses_are_bounded_in_depth(tmp_path, sink):

@@ -3,7 +3,7 @@
 import pytest
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.expand.defaults import SHORT_FORMS, long_form, long_object, with_frames_as_joints
+from linkforge_compile.expand.long_forms import SHORT_FORMS, long_form, long_object, with_frames_as_joints
 from linkforge_compile.schema.registry import definitions
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile

@@ -52,7 +52,7 @@ def test_maps_merge_and_fields_may_be_added(change):
     assert made.at("joints", "wrist", "limits") == {"lower": 0, "effort": 20, "velocity": 3}
     assert made.at("joints", "wrist", "dynamics") == {"damping": 1}
     assert made.at("joints", "wrist", "axis") == "x"
-    assert not made.told
+    assert not made.messages
 
 
 def test_short_forms_are_long_on_both_sides(change):
@@ -66,7 +66,7 @@ def test_a_written_null_deletes_and_an_expression_of_null_has_no_effect(change):
     made = change("joints: {wrist: {limits: {lower: null, effort: $(nothing)}, axis: ~}}", "{nothing: $(null)}")
     assert made.at("joints", "wrist", "limits") == {"effort": 1}
     assert made.at("joints", "wrist", "axis") is None
-    assert not made.told
+    assert not made.messages
 
 
 def test_lists_are_patched_by_position_counted_before_deletions_or_replaced(change):
@@ -104,7 +104,7 @@ def test_a_tag_of_gazebo_is_patched_under_its_key_and_under_properties(tmp_path:
     write(tmp_path, {"arm.robot.yaml": f"links: {{base: {{{GAZEBO}}}}}"})
     override = f"links: {{base: {{gazebo: {patch}}}}}"
     made = Changed(*assemble(f"modules: {{arm: {{use: arm.robot.yaml, override: {{{override}}}}}}}", folder=tmp_path))
-    assert not made.told
+    assert not made.messages
     (block,) = made.at("links", "base", "gazebo")
     assert {name: value for name, value in block.items() if value != {}} == left
 
@@ -143,7 +143,7 @@ def test_expressions_and_repetition_see_the_overriding_files_names(change):
         "joints: {wrist: {when: false, axis: y}, lid: {origin: {when: $(heavy > 9), rpy: [0, 0, 0]}}}",
         "{heavy: 3}",
     )
-    assert made.told == ["there is no 'test_' among the links to override; there are 'base', 'cover' and 'tool'"]
+    assert made.messages == ["there is no 'test_' among the links to override; there are 'base', 'cover' and 'tool'"]
     assert made.at("links", "base", "inertial") == {"mass": 3}
     assert made.at("joints", "wrist", "axis") == "x"
 
@@ -160,11 +160,13 @@ def test_an_order_of_pairs_survives_a_deleted_shape_and_a_list_is_reported(tmp_p
         "robot.robot.yaml": f"modules: {{arm: {{use: arm.robot.yaml, override: {{{override}}}}}}}",
     })  # fmt: skip
     made = compile_file(tmp_path / "robot.robot.yaml")
-    told = {one.code.id: [note.message for note in one.notes] for one in made.diagnostics if one.severity == "error"}
+    messages = {
+        one.code.id: [note.message for note in one.notes] for one in made.diagnostics if one.severity == "error"
+    }
     if left is None:
-        assert told == {"LF5140": ["'1' is changed by this override", "used here"]}
+        assert messages == {"LF5140": ["'1' is changed by this override", "used here"]}
     else:
-        assert not told
+        assert not messages
         assert [type(shape).__name__.lower() for shape in made.result().links[0].shapes] == left
 
 
@@ -181,7 +183,7 @@ def test_patched_nodes_keep_their_place_in_the_overriding_file(change):
 
 def test_a_missing_name_that_a_when_took_out_is_shown(change):
     made = change("links: {eye: {inertial: {mass: 1}}}")
-    assert made.told == ["there is no 'eye' among the links to override"]
+    assert made.messages == ["there is no 'eye' among the links to override"]
 
 
 @pytest.mark.parametrize(
@@ -195,7 +197,7 @@ def test_a_missing_name_that_a_when_took_out_is_shown(change):
     ],
 )
 def test_an_override_that_changes_nothing_is_reported(change, override: str, message: str):
-    assert message in change(override).told
+    assert message in change(override).messages
 
 
 def test_nested_modules_are_reached_through_their_entries(tmp_path):
@@ -225,7 +227,7 @@ def test_nested_modules_are_reached_through_their_entries(tmp_path):
     )
     (arm,) = made.instance.modules
     (hand,) = arm.modules
-    assert not made.told
+    assert not made.messages
     assert plain(hand.entry.node.get("parent")) == "base"
     assert plain(hand.tree.get("links")) == {"palm": {"inertial": {"mass": 5}, "visual": [{"sphere": {"radius": 1}}]}}
 
@@ -271,7 +273,7 @@ def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
     found = assemble(
         f"modules: {{arm: {{use: arm.robot.yaml, override: {{ros2_control: {patch}}}}}}}\n", folder=tmp_path
     )
-    assert found.told == []
+    assert found.messages == []
     rig = found.instance.modules[0].tree.get("ros2_control").get("rig")
     assert plain(rig.get("joints")) == {"j": {"state_interfaces": ["position", "effort"]}}
     assert plain(rig.get("gpios")) == {"io": {"command_interfaces": ["b"]}}
@@ -293,9 +295,9 @@ def test_a_position_reaches_lists_of_interfaces(tmp_path: Path):
 def test_a_value_equal_to_the_old_one_is_reported_in_any_form(change, patch: str, is_same: bool):
     found = change(f"joints: {{wrist: {{{patch}}}}}")
     assert [
-        one for one in found.told if one.endswith("already has this value, so the override changes nothing")
-    ] == found.told
-    assert bool(found.told) is is_same
+        one for one in found.messages if one.endswith("already has this value, so the override changes nothing")
+    ] == found.messages
+    assert bool(found.messages) is is_same
 
 
 def test_a_faulty_section_stays_faulty_with_frames(tmp_path: Path):
@@ -305,7 +307,7 @@ def test_a_faulty_section_stays_faulty_with_frames(tmp_path: Path):
     made = Changed(*assemble(use, folder=tmp_path))
     assert made.at("joints") == "FAULT"
     assert made.at("links") == {"hip": None, "knee": {"inertial": {"mass": 1}}, "tool": {}}
-    assert len(made.told) == 1
+    assert len(made.messages) == 1
 
 
 ELBOW = """\
@@ -319,7 +321,7 @@ joints:
 
 
 @pytest.mark.parametrize(
-    ("patch", "told", "changed"),
+    ("patch", "expected", "changed"),
     [
         ("joints: {elbow: {limits: {effort: null}}}", "joint 'elbow' has no 'limits.effort'", ["effort"]),
         ("joints: {elbow: {limits: {upper: -1}}}", "lower must not be above upper, found 0 and -1", ["upper"]),
@@ -334,13 +336,15 @@ joints:
         ("joints: {wrist: {origin: [0, 0, 1]}, elbow: {limits: {lower: 3}}}", "lower must not be above upper", []),
     ],
 )
-def test_an_error_caused_by_an_override_names_the_override(tmp_path: Path, patch: str, told: str, changed: list[str]):
+def test_an_error_caused_by_an_override_names_the_override(
+    tmp_path: Path, patch: str, expected: str, changed: list[str]
+):
     (tmp_path / "arm.robot.yaml").write_text(ELBOW)
     cell = (
         "linkforge: 1\nname: cell\nlinks: {table: {}}\nmodules:\n  left:\n    use: arm.robot.yaml\n    parent: table\n"
     )
     (tmp_path / "cell.robot.yaml").write_text(f"{cell}    override: {{{patch}}}\n")
-    (found,) = (each for each in compile_file(tmp_path / "cell.robot.yaml").diagnostics if told in each.message)
+    (found,) = (each for each in compile_file(tmp_path / "cell.robot.yaml").diagnostics if expected in each.message)
     notes = [note for note in found.notes if "override" in note.message]
     assert [note.message for note in notes] == [f"'{key}' is changed by this override" for key in changed]
     assert all(note.span and Path(note.span.file.name).name == "cell.robot.yaml" for note in notes)
@@ -349,4 +353,4 @@ def test_an_error_caused_by_an_override_names_the_override(tmp_path: Path, patch
 @pytest.mark.parametrize(("mass", "is_same"), [("1000 g", True), ("1 m", False), ("1", True)])
 def test_a_number_without_a_unit_is_as_much_in_the_unit_of_its_field_only(change, mass: str, is_same: bool):
     found = change(f"links: {{base: {{inertial: {{mass: {mass}}}}}}}")
-    assert found.told == (["'mass' already has this value, so the override changes nothing"] if is_same else [])
+    assert found.messages == (["'mass' already has this value, so the override changes nothing"] if is_same else [])

@@ -42,7 +42,7 @@ LENGTH = Dimension.LENGTH
 def test_text_is_read_by_the_declared_type(declared: str, text: str, value: object):
     for pair in (f"p={text}", f"p:={text}"):
         assembled = assemble(f"parameters: {{p: {declared}}}\nmetadata: {{p: $(p)}}", pair)
-        assert not assembled.told
+        assert not assembled.messages
         assert assembled.metadata == {"p": value}
 
 
@@ -60,7 +60,7 @@ def test_text_is_read_by_the_declared_type(declared: str, text: str, value: obje
 )
 def test_python_values_set_parameters(declared: str, given: object, value: object):
     assembled = assemble(f"parameters: {{p: {declared}}}\nmetadata: {{p: $(p)}}", p=given)
-    assert not assembled.told
+    assert not assembled.messages
     assert assembled.metadata == {"p": value}
 
 
@@ -110,8 +110,8 @@ def test_text_that_cannot_be_encoded_is_reported_where_a_plugin_reads_it():
 )
 def test_a_missing_parameter_is_reported_with_how_to_set_it(given: object, remedy: str):
     spec = "linkforge: 1\nname: a\nparameters: {reach: {type: length}, size: 1}\nvariants: {long: {reach: 2 m}}\n"
-    told = [one.message for one in compile_text(f"{spec}links: {{a: }}\n", parameters=given).diagnostics]
-    assert told == [f"parameter 'reach' has no default and must be set; write {remedy}"]
+    messages = [one.message for one in compile_text(f"{spec}links: {{a: }}\n", parameters=given).diagnostics]
+    assert messages == [f"parameter 'reach' has no default and must be set; write {remedy}"]
 
 
 def test_a_default_may_name_other_parameters_in_any_order():
@@ -120,7 +120,7 @@ def test_a_default_may_name_other_parameters_in_any_order():
         metadata: {half: $(half)}
     """
     assert assemble(text, "reach=1.5 m").metadata == {"half": Quantity(0.75, LENGTH)}
-    assert assemble(text, "half=3 kg").told == [
+    assert assemble(text, "half=3 kg").messages == [
         "parameter 'half' takes a length in m, cm or mm, found '3 kg', which is a mass"
     ]
 
@@ -141,22 +141,26 @@ def test_an_argument_of_null_leaves_the_default(tmp_path):
 
 def test_a_default_that_is_computed_is_so_only_where_it_is_used():
     text = "parameters: {teeth: 0, ratio: {type: number, default: $(1 / teeth)}}"
-    assert assemble(text).told == ["'/' divides by zero"]
-    assert not assemble(text, "ratio=2").told
+    assert assemble(text).messages == ["'/' divides by zero"]
+    assert not assemble(text, "ratio=2").messages
 
 
 def test_an_invalid_value_is_reported_on_the_command_line_with_the_declaration():
     sink, loader = Diagnostics(), Loader()
     spec = loader.parse("linkforge: 1\nname: a\nparameters:\n  reach: {type: length}\n", "a.yaml", None, sink)
     expand(spec, arguments_from_text(["reach:=3 kg"], sink), loader, sink)
-    (told,) = sink
-    assert str(told.span) == "<command line>:1:8"
-    assert told.span.text == "3 kg"
-    assert [(note.message, str(note.span)) for note in told.notes] == [("the parameter is declared here", "a.yaml:4:3")]
+    (diagnostic,) = sink
+    assert str(diagnostic.span) == "<command line>:1:8"
+    assert diagnostic.span.text == "3 kg"
+    assert [(note.message, str(note.span)) for note in diagnostic.notes] == [
+        ("the parameter is declared here", "a.yaml:4:3")
+    ]
 
 
 def test_an_unknown_parameter_offers_a_near_one():
-    assert assemble("parameters: {reach: 1 m}", "raech=2").told == ["no parameter named 'raech'; did you mean 'reach'?"]
+    assert assemble("parameters: {reach: 1 m}", "raech=2").messages == [
+        "no parameter named 'raech'; did you mean 'reach'?"
+    ]
 
 
 def test_malformed_and_duplicate_assignments_are_reported():
@@ -171,18 +175,18 @@ def test_malformed_and_duplicate_assignments_are_reported():
 
 
 def test_an_invalid_list_on_the_command_line_is_reported():
-    assert assemble("parameters: {p: [0, 0]}", "p=[1, 2").told == ["expected ',' or ']' before this"]
+    assert assemble("parameters: {p: [0, 0]}", "p=[1, 2").messages == ["expected ',' or ']' before this"]
 
 
 def test_an_invalid_default_is_reported_even_if_unused():
-    told = assemble("parameters: {reach: {type: length, default: 3 kg}}", "reach=1").told
-    assert told == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg', which is a mass"]
+    messages = assemble("parameters: {reach: {type: length, default: 3 kg}}", "reach=1").messages
+    assert messages == ["parameter 'reach' takes a length in m, cm or mm, found '3 kg', which is a mass"]
 
 
 def test_a_bare_angle_beyond_a_whole_turn_is_doubted():
     text = "parameters: {tilt: {type: angle, default: 0}}"
-    assert "write '90 deg' if degrees are meant" in assemble(text, "tilt=90").told[0]
-    assert not assemble(text, "tilt=720 deg").told
+    assert "write '90 deg' if degrees are meant" in assemble(text, "tilt=90").messages[0]
+    assert not assemble(text, "tilt=720 deg").messages
 
 
 def test_a_file_is_relative_to_the_file_that_writes_it_and_comes_out_relative_to_the_compiled_one(tmp_path):

@@ -56,7 +56,7 @@ def test_it_is_so_through_an_include_and_through_the_text_of_another_module(tmp_
     (tmp_path / "arms" / "parts" / "control.yaml").write_text(control)
     use = "{use: arms/arm.robot.yaml, with: {config: package://tables/c.yaml}}"
     found = assemble(f"modules: {{arm: {use}}}", folder=tmp_path)
-    assert found.told == []
+    assert found.messages == []
     [arm] = found.instance.modules
     paths = {"gains": "arms/gains.yaml", "config": "package://tables/c.yaml", "sum": "arms/conf/b.yaml"}
     assert metadata_of(arm) == paths
@@ -73,7 +73,7 @@ def test_an_expression_sees_the_path_as_it_was_written(tmp_path):
     write(tmp_path, {"arms/arm.robot.yaml": module})
     (tmp_path / "arms" / "small.yaml").write_text("mass: 3\n")
     found = assemble("modules: {arm: {use: arms/arm.robot.yaml}}", folder=tmp_path)
-    assert found.told == []
+    assert found.messages == []
     assert metadata_of(found.instance.modules[0]) == {"is_small": True, "mass": 3, "length": 10}
 
 
@@ -85,7 +85,7 @@ def test_text_that_grows_by_the_way_to_a_file_is_bounded(tmp_path):
     )
     write(tmp_path, {f"{far}/arm.robot.yaml": module})
     found = assemble(f"modules: {{arm: {{use: {far}/arm.robot.yaml}}}}", folder=tmp_path)
-    assert found.told == ["the text grows beyond 65,536 characters"]
+    assert found.messages == ["the text grows beyond 65,536 characters"]
 
 
 def test_it_is_so_in_the_free_parts_of_a_whole_object_that_one_expression_gives(tmp_path):
@@ -143,7 +143,7 @@ def test_a_package_that_is_handed_on_is_one_of_the_file_that_hands_it_on(tmp_pat
     (tmp_path / "tables" / "masses.yaml").write_text("mass: 3\n")
     use = "packages: {mine: tables}\nmodules: {arm: {use: arms/arm.robot.yaml, with: {table: package://mine/masses.yaml}}}"
     found = assemble(use, folder=tmp_path)
-    assert found.told == []
+    assert found.messages == []
     assert metadata_of(found.instance.modules[0].modules[0]) == {"mass": 3}
 
 
@@ -159,7 +159,7 @@ def test_a_module_s_own_package_comes_before_its_user_s(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("kind", "said"),
+    ("kind", "expected"),
     [
         (
             "string",
@@ -169,14 +169,14 @@ def test_a_module_s_own_package_comes_before_its_user_s(tmp_path):
         ("file", "gone.yaml"),
     ],
 )
-def test_a_missing_file_is_reported_with_the_start_of_its_path(tmp_path, monkeypatch, kind: str, said: str):
+def test_a_missing_file_is_reported_with_the_start_of_its_path(tmp_path, monkeypatch, kind: str, expected: str):
     monkeypatch.chdir(tmp_path)
     write(tmp_path, {"arms/arm.robot.yaml": f"parameters: {{t: {{type: {kind}}}}}\ndata: {{d: $(t)}}\nlinks: {{a: }}"})
     write(tmp_path, {"robot.robot.yaml": "modules: {arm: {use: arms/arm.robot.yaml, with: {t: gone.yaml}}}"})
     (fault,) = compile_file("robot.robot.yaml").diagnostics
     assert fault.code.id == "LF3001"
     message = fault.notes[0].message
-    assert message == f"looked for it at {said}"
+    assert message == f"looked for it at {expected}"
 
 
 def test_a_default_outside_the_package_of_its_module_is_reported(tmp_path):
@@ -188,7 +188,7 @@ def test_a_default_outside_the_package_of_its_module_is_reported(tmp_path):
     found = assemble(
         "packages: {hands: hands}\nmodules: {hand: {use: package://hands/hand.robot.yaml}}", folder=tmp_path
     )
-    assert found.told == [
+    assert found.messages == [
         "'cube.obj' lies outside the module's package, so its absolute path ties the output to this machine; "
         "write 'package://NAME/PATH'"
     ]

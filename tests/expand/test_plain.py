@@ -45,13 +45,13 @@ def require_same_assembly(spec: SpecFile) -> None:
     assert short_way.budget.left(Limit.ENTRIES) == long_way.budget.left(Limit.ENTRIES)
     where = Span(spec.file, 1, 1, 1, 2)
     for path in ("meshes/arm.stl", "/arm.stl"):
-        told = [Diagnostics(), Diagnostics()]
-        assert plain.find_mesh(path, where, told[0]) == whole.find_mesh(path, where, told[1])
-        assert list(map(str, told[0])) == list(map(str, told[1]))
+        sinks = [Diagnostics(), Diagnostics()]
+        assert plain.find_mesh(path, where, sinks[0]) == whole.find_mesh(path, where, sinks[1])
+        assert list(map(str, sinks[0])) == list(map(str, sinks[1]))
 
 
 @pytest.mark.parametrize(
-    "said",
+    "text",
     [
         "parameters:",
         "modules: {}",
@@ -67,8 +67,8 @@ def require_same_assembly(spec: SpecFile) -> None:
         "include: [nowhere.yaml]",
     ],
 )
-def test_a_file_with_anything_to_compute_is_not_plain(said: str):
-    spec = Loader().parse(f"linkforge: 1\nname: r\n{said}\n", "r.robot.yaml", Path(), Diagnostics())
+def test_a_file_with_anything_to_compute_is_not_plain(text: str):
+    spec = Loader().parse(f"linkforge: 1\nname: r\n{text}\n", "r.robot.yaml", Path(), Diagnostics())
     assert spec
     assert not is_plain(spec)
 

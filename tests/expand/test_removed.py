@@ -57,12 +57,12 @@ CELL = """
 def test_a_removed_name_is_reported_once_with_the_place(tmp_path: Path, use: str, code: str, why: str):
     group = f"    semantic: {{groups: {{all: {use}}}}}\n"
     write(tmp_path, {"arm.robot.yaml": ARM, "pair.robot.yaml": PAIR, "cell.robot.yaml": CELL + group})
-    (told,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
-    assert told.code.id == code
-    (note,) = told.notes
+    (diagnostic,) = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    assert diagnostic.code.id == code
+    (note,) = diagnostic.notes
     assert note.span
     assert f"{note.message} {note.span.file.path.name}:{note.span.line}:{note.span.column}" == why
-    assert "did you mean" not in told.message
+    assert "did you mean" not in diagnostic.message
 
 
 def test_a_joint_deleted_with_its_link_is_reported_with_the_deletion(tmp_path: Path):
@@ -79,8 +79,8 @@ def test_a_joint_deleted_with_its_link_is_reported_with_the_deletion(tmp_path: P
         semantic: {groups: {all: {joints: [arm_j1]}}}
     """
     write(tmp_path, {"arm.robot.yaml": arm, "cell.robot.yaml": cell})
-    change, told = compile_file(tmp_path / "cell.robot.yaml").diagnostics
-    (note,) = told.notes
+    change, diagnostic = compile_file(tmp_path / "cell.robot.yaml").diagnostics
+    (note,) = diagnostic.notes
     assert (note.message, note.span and note.span.line) == ("to delete link 'link1' deletes 'j1', the joint to it", 7)
     assert change.code.id == "LF3228"
 
@@ -119,7 +119,7 @@ def test_what_is_above_a_fixed_joint_is_deleted_with_it(tmp_path: Path, override
 
 
 @pytest.mark.parametrize(
-    ("override", "joint", "told"),
+    ("override", "joint", "expected"),
     [
         ("{links: {base: null}}", "", "'base' is deleted by this override, and joint 'j1' below it is not; "),
         ("{links: {link1: null}}", "", "'link1' is deleted by this override, and joint 'j2' below it is not; "),
@@ -130,13 +130,15 @@ def test_what_is_above_a_fixed_joint_is_deleted_with_it(tmp_path: Path, override
         ),
     ],
 )
-def test_joints_below_a_deleted_link_are_named_with_the_override(tmp_path: Path, override: str, joint: str, told: str):
+def test_joints_below_a_deleted_link_are_named_with_the_override(
+    tmp_path: Path, override: str, joint: str, expected: str
+):
     arm = f"{VENDOR.replace('link2: }', 'link2: , link3: }')}".replace("    semantic", f"      {joint}\n    semantic")
     found = vendor_without(tmp_path, override, arm if joint else VENDOR).diagnostics
-    first = told.split("joint")[1].split("'")[1]
+    first = expected.split("joint")[1].split("'")[1]
     ways_out = f"write 'joints: {{{first}: null}}' or 'joints: {{{first}: {{parent: …}}}}' as well"
     assert {one.code.id for one in found} >= {"LF4102"}
-    assert f"{told}{ways_out}" in [note.message for one in found for note in one.notes]
+    assert f"{expected}{ways_out}" in [note.message for one in found for note in one.notes]
 
 
 @pytest.mark.parametrize(
@@ -156,13 +158,13 @@ def test_what_goes_with_a_link_against_the_intent_is_a_warning(tmp_path: Path, o
 
 
 @pytest.mark.parametrize(
-    ("origin", "is_told"),
+    ("origin", "is_reported"),
     [("[0, 0.0, 0 mm]", False), ("{rpy: [0, 0, 0]}", False), ("{rpy: [0, 0, 90 deg]}", True), ("[0, 0, $(1)]", True)],
 )
-def test_only_a_pose_that_moves_the_module_is_told(tmp_path: Path, origin: str, is_told: bool):
+def test_only_a_pose_that_moves_the_module_is_reported(tmp_path: Path, origin: str, is_reported: bool):
     arm = VENDOR.replace("[0, 0, 1]", origin)
     found = vendor_without(tmp_path, "{links: {world: null}}", arm).diagnostics
-    assert ("LF3229" in {one.code.id for one in found}) is is_told
+    assert ("LF3229" in {one.code.id for one in found}) is is_reported
 
 
 def joints_read_to_delete_half(folder: Path, count: int) -> int:

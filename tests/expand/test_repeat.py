@@ -76,7 +76,7 @@ def test_parts_removed_by_when_are_not_computed():
           each_$(i): {when: $(fingers > 0), for: {i: $(7 / fingers)}}
           odd_$(i): {for: {i: 3}, when: $(i % 2 == 1), visual: {sphere: $(1 / i)}}
     """)
-    assert not made.told
+    assert not made.messages
     assert list(links(made)) == ["odd_1"]
 
 
@@ -108,7 +108,7 @@ def test_for_and_when_are_plain_keys_in_free_parts():
     whole = {"for": {"a": 1}, "when": "no", "value": 3, "list": [{"for": 1, "value": 2}]}
     assert made.metadata == {"written": whole, "given": whole, "own": whole}
     assert plain(made.instance.tree.get("semantic")) == {"joint_properties": {"elbow": {"when": 1, "value": 2}}}
-    assert not made.told
+    assert not made.messages
 
 
 def test_modules_repeat_each_with_its_own_arguments(tmp_path):
@@ -125,12 +125,12 @@ def test_modules_repeat_each_with_its_own_arguments(tmp_path):
 
 def test_a_fault_inside_a_for_is_reported_once():
     made = assemble("links: {a_$(i): {for: {i: 4}, visual: {sphere: $(j)}}}")
-    assert made.told == ["no parameter, variable or 'for' name 'j' here"]
+    assert made.messages == ["no parameter, variable or 'for' name 'j' here"]
 
 
 def test_copies_with_the_same_name_are_reported():
     made = assemble('links: {"a_$(min(i, 1))": {for: {i: 3}}}')
-    assert made.told == ["the expressions give the key 'a_1' twice"]
+    assert made.messages == ["the expressions give the key 'a_1' twice"]
 
 
 @pytest.mark.parametrize(

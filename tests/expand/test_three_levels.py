@@ -27,8 +27,8 @@ FAULTS = {
 def test_a_fault_three_modules_deep_is_reported_with_every_use(code: str, tip: str, tmp_path):
     for name, text in {"cell": CELL, "arm": ARM, "hand": HAND, "tip": f"{TIP}{tip}\n"}.items():
         (tmp_path / f"{name}.robot.yaml").write_text(text)
-    told = [one for one in compile_file(tmp_path / "cell.robot.yaml").diagnostics if one.code.id == code]
-    assert len(told) == 1
-    assert told[0].span.file.path.name == "tip.robot.yaml"
-    uses = [(note.span.file.path.name, note.span.line) for note in told[0].notes if note.message == "used here"]
+    diagnostics = [one for one in compile_file(tmp_path / "cell.robot.yaml").diagnostics if one.code.id == code]
+    assert len(diagnostics) == 1
+    assert diagnostics[0].span.file.path.name == "tip.robot.yaml"
+    uses = [(note.span.file.path.name, note.span.line) for note in diagnostics[0].notes if note.message == "used here"]
     assert uses == [("hand.robot.yaml", 7), ("arm.robot.yaml", 6), ("cell.robot.yaml", 5)]

@@ -44,7 +44,7 @@ def compiled(folder: Path, modules: str, gripper: str = GRIPPER, **options: obje
     return compile_file(spec, **options)  # type: ignore[arg-type]  # passed on as they are
 
 
-def told(compilation: Compilation) -> list[str]:
+def texts_of(compilation: Compilation) -> list[str]:
     return [str(diagnostic) for diagnostic in compilation.diagnostics]
 
 
@@ -70,7 +70,7 @@ def test_one_file_serves_two_uses_each_with_its_own_override(tmp_path):
 
 
 def test_an_unknown_name_is_reported_with_the_known_ones(tmp_path):
-    [line] = told(
+    [line] = texts_of(
         compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table, override: {joints: {slid: {axis: y}}}}")
     )
     assert "did you mean 'slide'" in line
@@ -135,7 +135,7 @@ def test_names_in_sensors_take_the_prefix_where_they_are_certain(tmp_path):
             tmp_path, "left: {use: vendor/gripper.urdf, parent: table}", GRIPPER.replace("</robot>", SENSORS)
         ).result()
     )
-    for said in (
+    for expected in (
         '<sensor name="left_touch" type="contact">',
         "<collision>left_finger_collision</collision>",
         "<topic>left_touched</topic>",
@@ -145,7 +145,7 @@ def test_names_in_sensors_take_the_prefix_where_they_are_certain(tmp_path):
         "<topic>/seen</topic>",
         "<frameName>base_link</frameName>",
     ):
-        assert said in urdf
+        assert expected in urdf
 
 
 LUMP = "palm_fixed_joint_lump__finger_collision_1"
@@ -159,8 +159,8 @@ def test_a_missing_collision_stays_missing_and_is_reported(tmp_path, before: str
     urdf = render_urdf(compilation.result())
     assert f"<collision>{LUMP}</collision>" in urdf
     assert "<topic>__default_topic__</topic>" in urdf
-    (told,) = [one.message for one in compilation.diagnostics if one.code.id == "LF5754"]
-    assert f"no prefix: '{LUMP}';" in told
+    (message,) = [one.message for one in compilation.diagnostics if one.code.id == "LF5754"]
+    assert f"no prefix: '{LUMP}';" in message
 
 
 def test_topics_and_frames_that_may_be_anything_are_reported_once_with_all_of_them(tmp_path):
@@ -184,12 +184,12 @@ def test_topics_and_frames_that_may_be_anything_are_reported_once_with_all_of_th
 
 def test_the_override_that_is_reported_reaches_the_name(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
-    (one,) = (one for one in told(compiled(tmp_path, USED, gripper)) if "LF5704" in one)
+    (one,) = (one for one in texts_of(compiled(tmp_path, USED, gripper)) if "LF5704" in one)
     [override] = re.findall("by '(override: .*)' where", one)
     (tmp_path / "again").mkdir()
     again = compiled(tmp_path / "again", USED.replace("}", f", {override.replace('...', 'g_palm')}}}"), gripper)
     assert "<on>g_palm</on>" in render_urdf(again.result())
-    assert not [line for line in told(again) if "LF5704" in line]
+    assert not [line for line in texts_of(again) if "LF5704" in line]
 
 
 TURN = """\
@@ -220,7 +220,7 @@ def test_a_plugin_is_offered_the_joints_of_its_own_use(tmp_path):
 
 def test_topics_of_a_robot_without_prefix_are_not_reported(tmp_path):
     gripper = GRIPPER.replace("</robot>", SENSORS)
-    assert not told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, prefix: '', parent: table}", gripper))
+    assert not texts_of(compiled(tmp_path, "g: {use: vendor/gripper.urdf, prefix: '', parent: table}", gripper))
 
 
 @pytest.mark.parametrize(("uses", "names"), [(1, []), (2, ["'image'"])])
@@ -254,14 +254,14 @@ def test_an_override_replaces_a_list_and_a_text_with_several_names_as_a_whole(tm
     plugin = '<plugin name="p" filename="p.so"><on>palm</on><on>table</on><all>palm, table</all></plugin>'
     gripper = GRIPPER.replace("</robot>", f"<gazebo>{plugin}</gazebo></robot>")
     [one] = compiled(tmp_path, USED, gripper).diagnostics
-    said = " ".join((one.message, *(note.message for note in one.notes)))
-    assert "{on: ...}}}}}' where this file is used, '...' being the whole list with that name in it" in said
-    assert "{all: ...}}}}}' where this file is used, '...' being the whole text with that name in it" in said
+    messages = " ".join((one.message, *(note.message for note in one.notes)))
+    assert "{on: ...}}}}}' where this file is used, '...' being the whole list with that name in it" in messages
+    assert "{all: ...}}}}}' where this file is used, '...' being the whole text with that name in it" in messages
 
 
 def test_an_override_repeats_one_of_several_raw_elements(tmp_path):
     gripper = GRIPPER.replace("</robot>", '<sensing range="1"/><sensing link="finger"/></robot>')
-    [one] = told(compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper))
+    [one] = texts_of(compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper))
     assert "change it to 'g_finger' by 'override: {extra: {1: ...}}' where" in one
     (tmp_path / "again").mkdir()
     override = """override: {extra: {1: '<sensing link="g_finger"/>'}}"""
@@ -393,12 +393,12 @@ def test_a_name_in_an_srdf_is_reported_with_the_override_that_sets_the_final_one
     for folder in (tmp_path, again_in):
         (folder / "gripper.srdf").write_text(group, "utf-8")
     use = "use: vendor/gripper.urdf, srdf: gripper.srdf, parent: table"
-    [one] = told(compiled(tmp_path, f"left: {{{use}}}"))
+    [one] = texts_of(compiled(tmp_path, f"left: {{{use}}}"))
     [(name, override)] = re.findall("change it to '(.*)' by '(override: .*)' where", one)
     raw = f"'<tool at=\"{name}\"/>'"
     again = compiled(again_in, f"left: {{{use}, {override.replace('...', raw)}}}")
     assert '<tool at="left_finger"/>' in render_srdf(again.result())
-    assert not told(again)
+    assert not texts_of(again)
 
 
 def test_checking_its_srdf_is_not_charged_to_the_robot(tmp_path, monkeypatch):

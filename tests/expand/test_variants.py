@@ -44,8 +44,8 @@ def test_a_parameter_beats_the_variant_beats_the_default(options, found):
 
 
 def test_an_unknown_variant_is_reported_as_typed():
-    (told,) = compile_text(SPEC, name="arm.robot.yaml", variant="simm").diagnostics
-    assert str(told) == (
+    (diagnostic,) = compile_text(SPEC, name="arm.robot.yaml", variant="simm").diagnostics
+    assert str(diagnostic) == (
         "<command line>:1:11: error: arm.robot.yaml has no variant named 'simm'; did you mean 'sim'? [LF3080]"
     )
 
@@ -108,7 +108,7 @@ def test_each_unknown_name_of_several_variants_is_reported_at_its_place():
 
 
 @pytest.mark.parametrize(
-    ("variants", "said"),
+    ("variants", "expected"),
     [
         ("{sim: {}, lab: {}}", "its variants are 'sim' and 'lab'"),
         (
@@ -118,10 +118,10 @@ def test_each_unknown_name_of_several_variants_is_reported_at_its_place():
         ("{}", "it declares no variants"),
     ],
 )
-def test_an_unknown_variant_is_reported_with_the_known_ones(variants: str, said: str):
+def test_an_unknown_variant_is_reported_with_the_known_ones(variants: str, expected: str):
     spec = f"linkforge: 1\nname: arm\nvariants: {variants}\nlinks: {{base: }}\n"
-    (told,) = compile_text(spec, variant="other").diagnostics
-    assert told.message == f"<text> has no variant named 'other'; {said}"
+    (diagnostic,) = compile_text(spec, variant="other").diagnostics
+    assert diagnostic.message == f"<text> has no variant named 'other'; {expected}"
 
 
 def test_an_expression_of_a_variant_is_checked_even_if_not_selected():
@@ -192,7 +192,7 @@ def test_variants_share_what_five_compiles_may_take(
     (tmp_path / "tool.robot.yaml").write_text(text)
     (tmp_path / "arm.robot.yaml").write_text(MANY)
     found = check_variants(tmp_path / "arm.robot.yaml").values()
-    codes = [one and " ".join(told.code.id for told in one.diagnostics) for one in found]
+    codes = [one and " ".join(diagnostic.code.id for diagnostic in one.diagnostics) for one in found]
     assert codes == [*before, "LF3304", *[None] * (12 - len(before))]
 
 

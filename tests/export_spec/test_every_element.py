@@ -45,8 +45,8 @@ def test_every_element_may_have_more(robot: Callable[[], Robot], render: Callabl
             continue
         assert {"own", "inner"} & {*element.attrib}, etree.tostring(element)
         assert element.find("more") is not None, etree.tostring(element)
-    told = [*URDF.limits(marked, {}), *SRDF.limits(marked, {})]
-    assert not [fault for fault in told if fault.severity is Severity.ERROR]
+    diagnostics = [*URDF.limits(marked, {}), *SRDF.limits(marked, {})]
+    assert not [fault for fault in diagnostics if fault.severity is Severity.ERROR]
     again = compiled(write_spec(marked))
     assert render(again) == render(marked)
 
@@ -119,9 +119,9 @@ class _Stamp:
         return tuple(map(self, part)) if hasattr(part, "__iter__") else part
 
     def _part(self, part: object) -> object:
-        said = {field.name: self(getattr(part, field.name)) for field in fields(part) if field.init}
-        said |= self._extras(part) if isinstance(part, Element | Link) else {}
-        return replace(part, **said)
+        values = {field.name: self(getattr(part, field.name)) for field in fields(part) if field.init}
+        values |= self._extras(part) if isinstance(part, Element | Link) else {}
+        return replace(part, **values)
 
     def _extras(self, part: object) -> dict[str, object]:
         number = next(self._numbers)

@@ -82,10 +82,10 @@ def test_a_robot_with_something_in_every_field_comes_back_as_it_was():
 
 
 def test_that_robot_has_something_in_every_field():
-    said = {(type(part), name) for part in parts(full()) for name in said_fields(part)}
+    written = {(type(part), name) for part in parts(full()) for name in written_fields(part)}
     kinds = {kind for kind in (getattr(core, name) for name in core.__all__) if is_part(kind)}
     fields_of_all = {(kind, field.name) for kind in kinds for field in fields(kind) if field.name != "source"}
-    assert fields_of_all - said - NOT_OF_A_SPEC == set()
+    assert fields_of_all - written - NOT_OF_A_SPEC == set()
 
 
 def test_the_tags_that_may_be_keys_are_those_of_the_schema():
@@ -120,7 +120,7 @@ def parts(whole: object) -> Iterator[object]:
             yield from parts(item)
 
 
-def said_fields(part: object) -> Iterator[str]:
+def written_fields(part: object) -> Iterator[str]:
     for field in fields(part):
         default = field.default_factory() if field.default_factory is not MISSING else field.default
         if getattr(part, field.name) != default:
@@ -243,11 +243,11 @@ def _hardware() -> Ros2Control:
 
 
 def _semantic() -> core.SemanticRobotDescription:
-    said = everything().semantic
+    written = everything().semantic
     chain = core.Chain("body", "arm", **EXTRAS)
     return replace(
-        said,
-        virtual_joints=[replace(joint, **EXTRAS) for joint in said.virtual_joints],
+        written,
+        virtual_joints=[replace(joint, **EXTRAS) for joint in written.virtual_joints],
         groups=[
             PlanningGroup(
                 "arm",
@@ -255,7 +255,7 @@ def _semantic() -> core.SemanticRobotDescription:
                 kinematics={"kinematics_solver_timeout": 1.0},
                 **raw("joint slide", "group hand"),
             ),
-            *said.groups[1:],
+            *written.groups[1:],
         ],
         end_effectors=[EndEffector("tool", "hand", "arm", "arm", **EXTRAS)],
         enabled_collisions=[CollisionPair("body", "arm", "User", **EXTRAS)],
@@ -263,10 +263,10 @@ def _semantic() -> core.SemanticRobotDescription:
             replace(
                 one, **EXTRAS, spheres=[replace(sphere, center_x=1, center_y=2, **EXTRAS) for sphere in one.spheres]
             )
-            for one in said.link_sphere_approximations
+            for one in written.link_sphere_approximations
         ],
-        passive_joints=[replace(joint, **EXTRAS) for joint in said.passive_joints],
-        joint_properties=[replace(remark, **EXTRAS) for remark in said.joint_properties],
-        group_states=[replace(state, **raw("joint shoulder")) for state in said.group_states],
+        passive_joints=[replace(joint, **EXTRAS) for joint in written.passive_joints],
+        joint_properties=[replace(remark, **EXTRAS) for remark in written.joint_properties],
+        group_states=[replace(state, **raw("joint shoulder")) for state in written.group_states],
         **raw("disable_default_collisions wheel"),
     )

@@ -159,7 +159,7 @@ def test_what_was_built_in_python_was_written_nowhere():
 
 
 @pytest.mark.parametrize(
-    ("path", "said", "near"),
+    ("path", "expected", "near"),
     [
         ("joint/elbow", "there is no 'joint' in the robot", "joints"),
         ("joints/elbw/limits", "there is no 'elbw' in 'joints'", "elbow"),
@@ -168,8 +168,8 @@ def test_what_was_built_in_python_was_written_nowhere():
         ("name/first", "there is no 'first' in 'name'", None),
     ],
 )
-def test_a_path_that_does_not_exist_is_reported_where_it_ends(arm: Robot, path: str, said: str, near: str | None):
-    with pytest.raises(UnknownPathError, match=said) as caught:
+def test_a_path_that_does_not_exist_is_reported_where_it_ends(arm: Robot, path: str, expected: str, near: str | None):
+    with pytest.raises(UnknownPathError, match=expected) as caught:
         explain(arm, path)
     assert near in caught.value.names if near else not caught.value.names
 

@@ -28,7 +28,10 @@ def compiled(text: str) -> Robot:
     spec = loader.parse(text, "written.robot.yaml", None, sink)
     assert spec is not None, (list(map(str, sink)), text)
     lowered = lower(expand(spec, arguments_from_values({}), loader, sink), sink)
-    assert not [told for told in sink if told.severity is Severity.ERROR], (list(map(str, sink)), text)
+    assert not [diagnostic for diagnostic in sink if diagnostic.severity is Severity.ERROR], (
+        list(map(str, sink)),
+        text,
+    )
     assert lowered.robot is not None
     return lowered.robot
 

@@ -59,11 +59,11 @@ def test_the_order_of_shapes_is_written_in_the_shortest_form(shape_order: str, w
     balls = [Sphere(1), Sphere(2)]
     kinds = [{"v": "visual", "c": "collision"}[letter] for letter in shape_order]
     link = Link("a", visuals=list(map(Visual, balls)), collisions=list(map(Collision, balls)), shape_order=kinds)
-    said = yaml.safe_load(spec(links=[link]))["links"]["a"]
-    order = said.get("shape_order")
-    words = [key for key in said if key != "shape_order"]
-    told = ", ".join([*words, *([f"shape_order: {order}".replace("'", "")] if order else [])])
-    assert told == written
+    section = yaml.safe_load(spec(links=[link]))["links"]["a"]
+    order = section.get("shape_order")
+    words = [key for key in section if key != "shape_order"]
+    order_text = ", ".join([*words, *([f"shape_order: {order}".replace("'", "")] if order else [])])
+    assert order_text == written
 
 
 def test_what_differs_between_visual_and_collision_is_written_twice():
@@ -90,15 +90,15 @@ def test_a_material_that_is_not_the_robots_is_written_where_it_is_used():
 
 
 @pytest.mark.parametrize(
-    ("scale", "said"),
+    ("scale", "expected"),
     [
         ((1, 1, 1), "mesh: a.stl"),
         ((0.001, 0.001, 0.001), "mesh: {file: a.stl, scale: 0.001}"),
     ],
 )
-def test_a_mesh_without_scale_writes_none(scale: tuple[float, float, float], said: str):
+def test_a_mesh_without_scale_writes_none(scale: tuple[float, float, float], expected: str):
     link = Link("a", visuals=[Visual(Mesh("a.stl", Vector3(*scale)))])
-    assert spec(links=[link]) == f"links:\n  a: {{visual: {{{said}}}}}\n"
+    assert spec(links=[link]) == f"links:\n  a: {{visual: {{{expected}}}}}\n"
 
 
 def test_the_tensor_is_written_even_where_it_could_be_computed():

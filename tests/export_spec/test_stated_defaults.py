@@ -177,7 +177,7 @@ def as_written(value: object) -> object:
     return value
 
 
-def with_said(path: str, value: object) -> str:
+def with_value(path: str, value: object) -> str:
     spec = deepcopy(ROBOT)
     *way, key = path.split("/")
     node = spec
@@ -197,7 +197,7 @@ WALKED = [(kind, field) for kind, field in defaults() if (kind, field.name) in P
 @pytest.mark.parametrize(("kind", "field"), WALKED, ids=[f"{kind.__name__}.{field.name}" for kind, field in WALKED])
 def test_a_written_default_is_written_again(kind: type, field: Field[object]):
     place = PLACES[kind, field.name]
-    robot = compile_text(with_said(place.spec, as_written(default_of(field)))).result()
+    robot = compile_text(with_value(place.spec, as_written(default_of(field)))).result()
     urdf = render_urdf(robot)
     assert etree.fromstring(urdf.encode()).xpath(place.urdf)
     assert render_urdf(compile_text(write_spec(robot)).result()) == urdf

@@ -28,8 +28,8 @@ def test_every_format_is_in_the_table():
     assert [(one.name, one.suffix) for one in FORMATS] == [
         ("urdf", ".urdf"),
         ("srdf", ".srdf"),
-        ("mjcf", ".mjcf"),
         ("sdf", ".sdf"),
+        ("mjcf", ".mjcf"),
         ("joint_limits", "_joint_limits.yaml"),
         ("ros2_controllers", "_controllers.yaml"),
         ("moveit", "_moveit_config"),
@@ -160,5 +160,5 @@ def test_a_quaternion_that_differs_from_rpy_is_reported_for_its_readers(shape: S
     robot = Robot(
         "r", links=[Link("a", visuals=[Visual(shape, Transform(extra_attributes=[("quat_xyzw", "0 0 1 0")]))])]
     )
-    told = [one for one in URDF.limits(robot, {}) if one.code is OTHER_QUATERNION]
-    assert len(told) == isinstance(shape, Capsule)
+    diagnostics = [one for one in URDF.limits(robot, {}) if one.code is OTHER_QUATERNION]
+    assert len(diagnostics) == isinstance(shape, Capsule)

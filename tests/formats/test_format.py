@@ -139,6 +139,13 @@ def test_a_suffix_may_have_an_ending_that_other_files_have(tmp_path: Path, capsy
     assert "'arm.robot.yaml' would be replaced, and the robot is made from it" in capsys.readouterr().err
 
 
+def test_a_folder_with_the_suffix_of_a_format_is_that_of_its_files(tmp_path: Path):
+    for output in ("my_config", "my_config/"):
+        assert main(["compile", "arm.robot.yaml", "--format", "folder", "-o", output]) == 0
+    files = {path.relative_to(tmp_path).as_posix() for path in (tmp_path / "my_config").rglob("*.txt")}
+    assert files == {"my_config/links.txt", "my_config/arm_config/links.txt"}
+
+
 def test_outputs_have_the_name_that_is_given(tmp_path: Path):
     words = ["compile", "arm.robot.yaml", "-o", "out/", "--name", "a/left"]
     assert main([*words, "--format", "folder", "--format", "urdf"]) == 0

@@ -1,5 +1,7 @@
 """joint_limits.yaml, with the parameters that MoveIt's robot model loader and Pilz's planner declare."""
 
+from pathlib import Path
+
 import pytest
 import yaml
 
@@ -125,3 +127,12 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["    max_jerk: 34.90658503988659"] == "2000 deg/s^3"
     assert shown["    max_deceleration: -8.0"] == "8"
     assert "joint_limits:" not in shown
+
+
+def test_a_template_of_the_users_replaces_that_of_linkforge(tmp_path: Path):
+    (tmp_path / "joint_limits").mkdir()
+    template = "{% for joint in joint_limits.joints %}\n- {{ joint.name | to_yaml }}\n{% endfor %}\n"
+    (tmp_path / "joint_limits" / "joint_limits.yaml.j2").write_text(template)
+    robot = compile_file(CASE).result()
+    (document,) = JOINT_LIMITS.render(robot, Rendering(templates=tmp_path))
+    assert yaml.safe_load(document.text) == ["shoulder", "elbow", "wrist", "left_finger_joint"]

@@ -43,7 +43,9 @@ def robots(draw: st.DrawFn) -> Robot:
 @unhurried
 @given(robots(), st.booleans(), st.sampled_from(["gz", "classic"]))
 def test_a_document_is_well_formed_or_refused_with_a_report(robot: Robot, pretty: bool, gazebo: str):
-    errors = [told for told in URDF.limits(robot, {"gazebo": gazebo}) if told.severity is Severity.ERROR]
+    errors = [
+        diagnostic for diagnostic in URDF.limits(robot, {"gazebo": gazebo}) if diagnostic.severity is Severity.ERROR
+    ]
     try:
         text = render_urdf(robot, pretty=pretty, gazebo=gazebo)
     except RobotGeneratorError:

@@ -31,7 +31,7 @@ from tests.export_spec.test_every_field import full, parts
 from tests.formats.everything import everything
 
 
-def told(robot: Robot, **options: str) -> list[tuple[str, str]]:
+def limits_of(robot: Robot, **options: str) -> list[tuple[str, str]]:
     return [(diagnostic.code.id, diagnostic.message) for diagnostic in URDF.limits(robot, options)]
 
 
@@ -41,16 +41,16 @@ def robot(*visuals: Visual, **parts) -> Robot:
 
 def test_an_ordinary_robot_is_within_the_limits():
     arm = robot(Visual(Sphere(1), material=Material("red", Color(1, 0, 0))))
-    assert not told(arm)
+    assert not limits_of(arm)
     assert not list(SRDF.limits(arm, {}))
 
 
 def test_a_robot_with_every_feature_is_reported_for_its_capsule_only():
-    assert [code for code, _ in told(everything())] == ["LF7002"]
+    assert [code for code, _ in limits_of(everything())] == ["LF7002"]
 
 
 def test_capsules_are_reported_once():
-    assert told(robot(Visual(Capsule(1, 1)), Visual(Capsule(2, 2)))) == [
+    assert limits_of(robot(Visual(Capsule(1, 1)), Visual(Capsule(2, 2)))) == [
         (
             "LF7002",
             "a capsule needs a reader of URDF 1.1, such as urdfdom 6 or MuJoCo; older ones refuse the whole file",
@@ -59,7 +59,7 @@ def test_capsules_are_reported_once():
 
 
 def test_a_version_older_than_a_capsule():
-    codes = told(robot(Visual(Capsule(1, 1)), version="1.0"))
+    codes = limits_of(robot(Visual(Capsule(1, 1)), version="1.0"))
     assert codes[1] == (
         "LF7003",
         "a robot with a capsule is URDF 1.1 or later, found version '1.0'; leave `version` out to have the right one",
@@ -68,22 +68,22 @@ def test_a_version_older_than_a_capsule():
 
 @pytest.mark.parametrize("version", ["2.0", "1", "1.3", "my arm v2"])
 def test_a_version_that_urdfdom_does_not_read(version: str):
-    assert told(robot(version=version)) == [
+    assert limits_of(robot(version=version)) == [
         ("LF7004", f"urdfdom reads the versions 1.0, 1.1 and 1.2 of URDF and refuses any other, found '{version}'")
     ]
 
 
 def test_two_materials_of_one_name():
     red, green = Material("paint", Color(1, 0, 0)), Material("paint", Color(0, 1, 0))
-    [(code, message)] = told(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=green)))
+    [(code, message)] = limits_of(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=green)))
     assert code == "LF7005"
     assert message.startswith("there are different materials named 'paint'")
-    assert not told(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=red)))
+    assert not limits_of(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=red)))
 
 
 def test_nameless_materials_may_differ():
     red, green = Material("", Color(1, 0, 0)), Material("", Color(0, 1, 0))
-    assert not told(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=green)))
+    assert not limits_of(robot(Visual(Sphere(1), material=red), Visual(Sphere(1), material=green)))
 
 
 TOLL = "a\x07b"
@@ -126,7 +126,7 @@ UNWRITABLE = {
 
 @pytest.mark.parametrize("faulty", UNWRITABLE.values(), ids=UNWRITABLE)
 def test_what_xml_cannot_hold_is_reported_once_anywhere(faulty: Robot):
-    [(code, message)] = told(faulty)
+    [(code, message)] = limits_of(faulty)
     assert code == "LF7001"
     assert message.startswith("this cannot be written as XML: ")
 
@@ -134,7 +134,7 @@ def test_what_xml_cannot_hold_is_reported_once_anywhere(faulty: Robot):
 def test_the_semantic_part_is_its_own_formats_affair():
     semantic = SemanticRobotDescription(groups=[PlanningGroup("arm", links=[TOLL])])
     faulty = Robot("r", semantic=semantic)
-    assert not told(faulty)
+    assert not limits_of(faulty)
     assert [diagnostic.code.id for diagnostic in SRDF.limits(faulty, {})] == ["LF7001"]
 
 
@@ -157,33 +157,33 @@ WRIST = Joint("wrist", JointType.FIXED, "base", "tool")
 
 
 def test_forces_need_a_joint_above_the_link():
-    assert told(robot(sensors=[FORCES])) == [
+    assert limits_of(robot(sensors=[FORCES])) == [
         ("LF7101", "Gazebo senses forces in the joint above a link, and there is none above 'tool'")
     ]
 
 
 def test_forces_in_a_fixed_joint_need_it_preserved():
-    [(code, message)] = told(robot(sensors=[FORCES], joints=[WRIST]))
+    [(code, message)] = limits_of(robot(sensors=[FORCES], joints=[WRIST]))
     assert code == "LF7102"
     assert "'wrist'" in message
     preserved = GazeboElement("wrist", {"preserveFixedJoint": "true"})
-    assert not told(robot(sensors=[FORCES], joints=[WRIST], gazebo_elements=[preserved]))
+    assert not limits_of(robot(sensors=[FORCES], joints=[WRIST], gazebo_elements=[preserved]))
 
 
 def test_a_contact_sensor_has_no_noise():
     contact = Sensor("bump", SensorType.CONTACT, "base", contact_info=ContactInfo("hull", SensorNoise()))
-    assert [code for code, _ in told(robot(sensors=[contact]))] == ["LF7103"]
+    assert [code for code, _ in limits_of(robot(sensors=[contact]))] == ["LF7103"]
 
 
 def test_a_frame_is_left_out_for_gazebo_classic_alone():
     camera = Sensor("eye", SensorType.CAMERA, "base", camera_info=CameraInfo(), frame="eye_optical")
-    assert not told(robot(sensors=[camera]))
-    assert [code for code, _ in told(robot(sensors=[camera]), gazebo="classic")] == ["LF7104"]
+    assert not limits_of(robot(sensors=[camera]))
+    assert [code for code, _ in limits_of(robot(sensors=[camera]), gazebo="classic")] == ["LF7104"]
 
 
 def test_the_info_of_another_type_is_left_out():
     imu = Sensor("imu", SensorType.IMU, "base", imu_info=IMUInfo(), camera_info=CameraInfo())
-    assert told(robot(sensors=[imu])) == [("LF7105", "a sensor of type imu has no 'camera'; it is left out")]
+    assert limits_of(robot(sensors=[imu])) == [("LF7105", "a sensor of type imu has no 'camera'; it is left out")]
 
 
 def test_fields_that_are_not_looked_into_refuse_text():

@@ -80,6 +80,20 @@ def test_the_ur5e_holds_a_state(tmp_path: Path):
         numpy.testing.assert_allclose(data.qvel, 0, atol=1e-3)
 
 
+def test_the_fingers_of_a_gripper_follow_its_drive():
+    robot = compile_file(ROOT / "examples" / "05_gripper" / "robotiq_2f_85.robot.yaml").result()
+    model = mujoco.MjModel.from_xml_string(MJCF.render(robot, Rendering())[0].text)
+    model.actuator_gainprm[:, 0], model.actuator_biasprm[:, 1:3] = 50, (-50, -5)  # the example states no gains
+    data = mujoco.MjData(model)
+    data.ctrl[:] = 0.6
+    while data.time < SECONDS:
+        mujoco.mj_step(model, data)
+    for joint in robot.joints:
+        if joint.mimic:
+            leader = data.joint(joint.mimic.joint).qpos
+            assert data.joint(joint.name).qpos == pytest.approx(joint.mimic.multiplier * leader, abs=0.02)
+
+
 def simulated(model, key: str):
     """Return the state some seconds after a keyframe, whose commands are held."""
     data = mujoco.MjData(model)

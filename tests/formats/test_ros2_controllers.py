@@ -1,5 +1,7 @@
 """controllers.yaml, with the parameters that the controller manager and the packages of ros2_controllers declare."""
 
+from pathlib import Path
+
 import pytest
 import yaml
 
@@ -13,6 +15,8 @@ from tests.ros_parameters import parameters_in, require_declared
 
 CASE = ROOT / "tests" / "cases" / "good" / "planning" / "planning.robot.yaml"
 GOLDEN = CASE.with_name("planning_controllers.yaml")
+
+EXAMPLE = ROOT / "examples" / "09_mobile_manipulator" / "mobile_manipulator.robot.yaml"
 
 MANAGER = {"update_rate": "int", r"\w+\.type": "string"}
 GRIPPER = {
@@ -107,13 +111,22 @@ def controller(name: str, text: str) -> dict[str, object]:
     return parameters
 
 
-def test_the_case_compiles_to_the_file_next_to_it(update_golden: bool):
-    banner = "Compiled by linkforge from planning.robot.yaml; edit that file, not this one."
-    text = ROS2_CONTROLLERS.render(compile_file(CASE).result(), Rendering(banner=banner))[0].text
+@pytest.mark.parametrize(("spec", "golden"), [(CASE, GOLDEN), (EXAMPLE, EXAMPLE.with_name("controllers.yaml"))])
+def test_a_spec_compiles_to_the_file_next_to_it(spec: Path, golden: Path, update_golden: bool):
+    robot = compile_file(spec).result()
+    assert not tuple(ROS2_CONTROLLERS.limits(robot, {}))
+    banner = f"Compiled by linkforge from {spec.name}; edit that file, not this one."
+    text = ROS2_CONTROLLERS.render(robot, Rendering(banner=banner))[0].text
     if update_golden:
-        GOLDEN.write_text(text, "utf-8")
-    assert text == GOLDEN.read_text("utf-8")
+        golden.write_text(text, "utf-8")
+    assert text == golden.read_text("utf-8")
     require_all_declared(text)
+
+
+def test_groups_of_groups_have_no_controller_in_place_of_their_groups():
+    groups = "all: {subgroups: [lower, upper]}, lower: {joints: [elbow]}, upper: {joints: [shoulder]}"
+    written = yaml.safe_load(rendered(f"{ROBOT}semantic: {{groups: {{{groups}}}}}\n"))
+    assert [name for name in written if name != "controller_manager"] == ["lower_controller", "upper_controller"]
 
 
 def test_without_the_section_each_group_with_joints_of_its_own_has_a_controller():
@@ -265,3 +278,19 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["own:"] == "own"
     assert shown["type: a/B"] == "a/B"
     assert shown["p: 4"] == "4"
+
+
+def test_names_in_parameters_are_reported_under_a_prefix(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(
+        f"linkforge: 1\nname: arm\n{ROBOT}controllers:\n  own:\n    type: a/B\n"
+        "    parameters: {gains: {elbow: {p: 1}, $(joint('shoulder')): {p: 2}}, tip: lower}\n"
+    )
+    both = tmp_path / "both.robot.yaml"
+    both.write_text(
+        "linkforge: 1\nname: both\nlinks: {table: }\nmodules: {arm: {use: arm.robot.yaml, parent: table, prefix: l_}}\n"
+    )
+    compilation = compile_file(both)
+    found = [(one.code.id, one.span.text) for one in compilation.diagnostics if one.span]
+    assert found == [("LF5704", "elbow"), ("LF5704", "lower")]
+    written = yaml.safe_load(ROS2_CONTROLLERS.render(compilation.result(), Rendering())[0].text)
+    assert list(written["l_own"]["ros__parameters"]["gains"]) == ["elbow", "l_shoulder"]

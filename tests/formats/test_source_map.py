@@ -109,7 +109,7 @@ def some(elements: list[etree._Element]) -> list[etree._Element]:
 
 
 def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot, urdf: Mapped):
-    told = 0
+    count = 0
     for joint in some(etree.fromstring(urdf.text.encode()).findall("joint")):
         for part in joint.iterchildren(*KEYS):
             explanation = explain(robot, f"joints/{joint.get('name')}/{KEYS[part.tag]}")
@@ -119,8 +119,8 @@ def test_the_parts_of_a_joint_lead_to_where_explain_finds_them(robot: Robot, urd
                     joint.get("name"),
                     part.tag,
                 )
-                told += 1
-    assert told or len(robot.joints) == 0
+                count += 1
+    assert count or len(robot.joints) == 0
 
 
 def test_an_attribute_leads_to_its_own_value(robot: Robot, urdf: Mapped):

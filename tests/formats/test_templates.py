@@ -136,9 +136,9 @@ def test_a_broken_builtin_template_is_reported_at_its_place(
     spec = folder / "a.robot.yaml"
     spec.write_text("linkforge: 1\nname: a\nlinks: {base: }\n")
     assert main(["compile", str(spec)]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"linkforge: {template}:{line}: {reason}")
-    assert said.endswith("; this template is a part of linkforge: mend it, or install linkforge again\n")
+    stderr = capsys.readouterr().err
+    assert stderr.startswith(f"linkforge: {template}:{line}: {reason}")
+    assert stderr.endswith("; this template is a part of linkforge: mend it, or install linkforge again\n")
 
 
 def test_a_removed_builtin_template_is_reported(folder: Path, capsys: pytest.CaptureFixture[str]):

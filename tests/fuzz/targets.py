@@ -144,9 +144,9 @@ def _text(content: bytes) -> str:
     return content.decode("utf-8", errors="replace")
 
 
-def _lie_inside(text: str, told: Diagnostics | tuple[Diagnostic, ...]) -> None:
+def _lie_inside(text: str, diagnostics: Diagnostics | tuple[Diagnostic, ...]) -> None:
     lines = text.count("\n") + text.count("\r") + 1
-    for diagnostic in told:
+    for diagnostic in diagnostics:
         assert diagnostic.span, diagnostic
         assert 1 <= diagnostic.span.line <= lines, diagnostic
 

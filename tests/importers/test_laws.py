@@ -18,7 +18,7 @@ from linkforge_compile.source import SourceFile
 from tests.export_spec.test_laws import compiled, few, robots
 
 
-def said_by_urdf(robot: Robot) -> Robot:
+def as_urdf_states_it(robot: Robot) -> Robot:
     """Return a robot without what an import writes in another place: the materials of visuals."""
     robot = robot.clone()
     robot.links = [
@@ -57,7 +57,7 @@ def _sorted(element: ElementTree.Element) -> tuple[object, ...]:
 
 
 @few
-@given(robots.map(said_by_urdf).filter(is_writable))
+@given(robots.map(as_urdf_states_it).filter(is_writable))
 def test_an_imported_robot_has_all_its_elements(robot: Robot):
     again = compiled(imported(robot))
     assert elements(render_urdf(again)) == elements(render_urdf(robot))
@@ -118,8 +118,8 @@ def test_an_import_tells_exactly_where_mujoco_shows_another_color(
     parts = [own, f'<link name="l">{link}</link>']
     document = f'<robot name="r">{"".join(parts if own_comes_first else reversed(parts))}</robot>'
     read = import_urdf("r.urdf", text=document)
-    is_told = bool({"LF8140", "LF8141"} & {loss.code.id for loss in read.losses})
-    assert is_told == (seen_in_mujoco(render_urdf(compiled(read.text or ""))) != seen_in_mujoco(document))
+    is_reported = bool({"LF8140", "LF8141"} & {loss.code.id for loss in read.losses})
+    assert is_reported == (seen_in_mujoco(render_urdf(compiled(read.text or ""))) != seen_in_mujoco(document))
 
 
 def seen_in_mujoco(document: str) -> dict[float, str]:

@@ -42,7 +42,7 @@ def document(text: str) -> XmlDocument:
     return read
 
 
-def told(before: str, after: str) -> list[str]:
+def losses_of(before: str, after: str) -> list[str]:
     assert before in ROBOT
     return [str(one) for one in losses(document(ROBOT), document(ROBOT.replace(before, after)))]
 
@@ -58,7 +58,7 @@ def told(before: str, after: str) -> list[str]:
     ],
 )
 def test_another_spelling_is_no_loss(before: str, after: str):
-    assert told(before, after) == []
+    assert losses_of(before, after) == []
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,7 @@ def test_another_spelling_is_no_loss(before: str, after: str):
     ],
 )  # fmt: skip
 def test_a_difference_is_reported_at_its_place(before: str, after: str, loss: str):
-    assert f"r.urdf:{loss}" in told(before, after)
+    assert f"r.urdf:{loss}" in losses_of(before, after)
 
 
 LINK = '<link name="a">{}</link>'
@@ -95,7 +95,7 @@ PAINTED, NAMED = f"<visual>{BALL}{OTHER}</visual>", f'<visual>{BALL}<material na
 
 
 @pytest.mark.parametrize(
-    ("was", "now", "told"),
+    ("was", "now", "expected"),
     [
         (LINK.format(PAINTED + TOUCHED), LINK.format(TOUCHED + PAINTED), ["1:147 LF8140"]),
         # The tags stand as they stood.
@@ -107,10 +107,10 @@ PAINTED, NAMED = f"<visual>{BALL}{OTHER}</visual>", f'<visual>{BALL}<material na
         (LINK.format(PAINTED) + OWN, OWN + LINK.format(PAINTED), []),
     ],
 )  # fmt: skip
-def test_an_order_is_a_loss_where_mujoco_shows_another_color(was: str, now: str, told: list[str]):
+def test_an_order_is_a_loss_where_mujoco_shows_another_color(was: str, now: str, expected: list[str]):
     one, other = (document(f'<robot name="r">{text}</robot>') for text in (was, now))
     found = [(loss.span.start, loss.code.id) for loss in losses(one, other)]
-    assert [f"{start.line}:{start.column} {code}" for start, code in found] == told
+    assert [f"{start.line}:{start.column} {code}" for start, code in found] == expected
 
 
 def test_a_color_changed_by_raw_xml_is_reported():
@@ -300,7 +300,7 @@ def test_a_mutated_urdf_comes_out_the_same_or_is_reported(seed: int, shared: Pat
     """An independent judge finds no loss where the import tells none."""
     judge = runpy.run_path(str(shared / "tools" / "urdf_equiv.py"))["semantic"]
     chance, urdf = random.Random(seed), tmp_path / "r.urdf"
-    silent, judged = [], 0
+    silent, compared = [], 0
     for _ in range(30):
         robot = etree.fromstring(EVERYTHING)
         damage(robot, chance)
@@ -309,9 +309,9 @@ def test_a_mutated_urdf_comes_out_the_same_or_is_reported(seed: int, shared: Pat
         if read.text is None or read.has_errors or read.losses:
             continue
         compilation = compile_text(read.text)
-        judged += 1
+        compared += 1
         ours = etree.fromstring(render_urdf(compilation.result()).encode())
         # What stands in the material of a visual comes out in that of the robot, which the judge does not look into.
         silent += [one for one in judge(robot, ours).fatal if "/material[" not in one["path"]]
     assert not silent
-    assert judged > 15
+    assert compared > 15

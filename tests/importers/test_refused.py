@@ -65,8 +65,8 @@ def test_what_urdfdom_never_reads_is_none(parts: str):
 
 
 def test_the_child_of_a_joint_at_fault_is_no_second_root():
-    told = check_text(f'<robot name="r">{_joint(kind="revolut")}</robot>').diagnostics
-    assert [one.code.id for one in told] == ["LF8161"]
+    diagnostics = check_text(f'<robot name="r">{_joint(kind="revolut")}</robot>').diagnostics
+    assert [one.code.id for one in diagnostics] == ["LF8161"]
 
 
 def test_limits_that_vendors_leave_open_are_raw():

@@ -80,19 +80,19 @@ def test_a_robot_is_the_same_to_every_consumer_and_stays_so(robot: Documents, ju
     again, lost_again = imported(ours)
     assert not lost_again
     assert texts(compiled(again, tmp_path / "again")) == texts(ours)
-    assert told(again) == told(spec)
+    assert content_of(again) == content_of(spec)
 
 
-def told(spec: str) -> object:
+def content_of(spec: str) -> object:
     """Return the content of a spec, without comments, spelling of numbers, layout of raw XML and the order of keys."""
-    return _told(read(SourceFile("spec", spec), Diagnostics(), Budget()))
+    return _content_of(read(SourceFile("spec", spec), Diagnostics(), Budget()))
 
 
-def _told(node: YamlNode | None) -> object:
+def _content_of(node: YamlNode | None) -> object:
     if isinstance(node, YamlMap):
-        return {entry.name: _told(entry.value) for entry in node}
+        return {entry.name: _content_of(entry.value) for entry in node}
     if isinstance(node, YamlList):
-        return [_told(item) for item in node]
+        return [_content_of(item) for item in node]
     assert isinstance(node, YamlScalar)
     if not node.text.startswith("<"):
         return node.value

@@ -45,7 +45,7 @@ def read(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("xml", "said"),
+    ("xml", "expected"),
     [
         (
             '<virtual_joint name="w" type="floating" parent_frame="odom" child_link="base"/>',
@@ -100,8 +100,8 @@ def read(tmp_path: Path):
         ),
     ],
 )
-def test_a_part_has_its_own_words(read, xml: str, said: str):
-    assert read(xml) == dedent(said)
+def test_a_part_has_its_own_words(read, xml: str, expected: str):
+    assert read(xml) == dedent(expected)
 
 
 def test_a_state_is_in_the_units_of_its_joints(read):

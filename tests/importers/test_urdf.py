@@ -58,7 +58,7 @@ LIMIT = '<limit lower="-1" upper="1" effort="2" velocity="3"/>'
 
 
 @pytest.mark.parametrize(
-    ("axis", "said"),
+    ("axis", "spec"),
     [
         ("0 0 1", "z"),
         ("0.0 -1.0 0", "-y"),
@@ -67,8 +67,8 @@ LIMIT = '<limit lower="-1" upper="1" effort="2" velocity="3"/>'
         ("0.7071 0 0.7071", "[0.7071, 0, 0.7071]"),
     ],
 )
-def test_an_axis_is_a_letter_where_it_is_one(read, axis: str, said: str):
-    assert f"axis: {said}" in joint(read, f'<axis xyz="{axis}"/>{LIMIT}')
+def test_an_axis_is_a_letter_where_it_is_one(read, axis: str, spec: str):
+    assert f"axis: {spec}" in joint(read, f'<axis xyz="{axis}"/>{LIMIT}')
 
 
 def test_a_joint_without_axis_turns_about_x(read):
@@ -76,7 +76,7 @@ def test_a_joint_without_axis_turns_about_x(read):
 
 
 @pytest.mark.parametrize(
-    ("radians", "said"),
+    ("radians", "spec"),
     [
         ("1.5707963267948966", "90 deg"),
         ("-3.141592653589793", "-180 deg"),
@@ -90,9 +90,9 @@ def test_a_joint_without_axis_turns_about_x(read):
         ("12.6", "12.6 rad"),
     ],
 )
-def test_an_angle_is_in_degrees_only_where_it_is_the_same_double(read, radians: str, said: str):
+def test_an_angle_is_in_degrees_only_where_it_is_the_same_double(read, radians: str, spec: str):
     limit = f'<limit lower="-20" upper="{radians}" effort="2" velocity="3"/>'
-    assert f"upper: {said}," in joint(read, f'<axis xyz="0 0 1"/>{limit}')
+    assert f"upper: {spec}," in joint(read, f'<axis xyz="0 0 1"/>{limit}')
 
 
 def test_a_length_is_never_an_angle(read):
@@ -109,20 +109,20 @@ def test_the_parts_of_a_joint_leave_their_defaults_out(read):
         <mimic joint="k" multiplier="1.0" offset="0.2"/>
         <safety_controller k_velocity="10" soft_upper_limit="0.5"/>
         <calibration rising="0.1" reference_position="0.2"/>"""
-    said = read(
+    spec = read(
         f"""{BOTH}<joint name="j" type="continuous">{ENDS}{parts}</joint><link name="c"/>
         <joint name="k" type="continuous"><parent link="a"/><child link="c"/><axis xyz="0 0 1"/></joint>"""
     )
-    assert "origin: [0, 0, 1]" in said
-    assert "dynamics: {damping: 0.5}" in said
-    assert "mimic: {joint: k, offset: 0.2}" in said
-    assert "safety_controller: {soft_upper_limit: 0.5, k_velocity: 10}" in said
-    assert "calibration: {rising: 0.1, extra_attributes: {reference_position: 0.2}}" in said
+    assert "origin: [0, 0, 1]" in spec
+    assert "dynamics: {damping: 0.5}" in spec
+    assert "mimic: {joint: k, offset: 0.2}" in spec
+    assert "safety_controller: {soft_upper_limit: 0.5, k_velocity: 10}" in spec
+    assert "calibration: {rising: 0.1, extra_attributes: {reference_position: 0.2}}" in spec
 
 
 def test_what_a_fixed_joint_has_left_over_stays(read):
-    said = joint(read, '<axis xyz="0 0 1"/><limit effort="1" velocity="2"/>', "fixed")
-    assert said == 'extra: [<axis xyz="0 0 1"/>, <limit effort="1" velocity="2"/>]'
+    spec = joint(read, '<axis xyz="0 0 1"/><limit effort="1" velocity="2"/>', "fixed")
+    assert spec == 'extra: [<axis xyz="0 0 1"/>, <limit effort="1" velocity="2"/>]'
 
 
 def test_unknown_attributes_and_elements_stay_where_they_were(read):
@@ -170,32 +170,32 @@ def test_collisions_before_visuals_stay_there(read):
 
 
 @pytest.mark.parametrize(
-    ("tags", "said"),
+    ("tags", "spec"),
     [
         ("visual collision visual collision", "shape_order: pairs"),
         ("collision visual collision", "shape_order: pairs"),
         ("visual visual collision visual", "shape_order: [visual, visual, collision, visual]"),
     ],
 )
-def test_shapes_that_are_mixed_stay_so(read, tags: str, said: str):
+def test_shapes_that_are_mixed_stay_so(read, tags: str, spec: str):
     shape = "<{0}><geometry><sphere radius='1'/></geometry></{0}>"
     text = read(f"<link name='a'>{''.join(map(shape.format, tags.split()))}</link>")
-    assert said in text
+    assert spec in text
     assert re.findall(r"<(visual|collision)>", compiled(f"linkforge: 1\nname: r\n{text}\n")) == tags.split()
 
 
 @pytest.mark.parametrize(
-    ("painted", "said"),
+    ("painted", "spec"),
     [
         ("1 0 0 1", "red: {color: [0, 0, 1], after_links: true}"),
         ("0 0 1.0 1", "red: {color: [0, 0, 1]}"),
     ],
 )
-def test_a_material_after_another_color_of_its_name_keeps_its_place(read, painted: str, said: str):
+def test_a_material_after_another_color_of_its_name_keeps_its_place(read, painted: str, spec: str):
     """MuJoCo takes the first color of a name, and urdfdom the robot's own, so neither may become the other."""
     seen = shown(f'<material name="red"><color rgba="{painted}"/></material>') + shown('<material name="red"/>')
     text = read(f'<link name="a">{seen}</link><material name="red"><color rgba="0 0 1 1"/></material>')
-    assert said in text
+    assert spec in text
     urdf = compiled(f"linkforge: 1\nname: r\n{text}\n")
     first = re.search(r'<material name="red">\s*<color rgba="([^"]*)"', urdf)
     assert first
@@ -515,18 +515,18 @@ def test_a_transmission_without_interfaces_has_none(read):
 
 def test_raw_elements_keep_comments_and_report_instructions(tmp_path: Path):
     comment = "<!-- one\n       two <?x y?> -->"
-    told = imported_from(
+    diagnostics = imported_from(
         f"<link name='a'/>\n    <mine>\n        {comment}\n        <?sort by name?><a/>\n    </mine>", tmp_path
     )
-    assert [one.code.id for one in told.diagnostics] == ["LF8102"]
-    assert told.text is not None
-    [raw] = compile_text(told.text).result().extra_elements
+    assert [one.code.id for one in diagnostics.diagnostics] == ["LF8102"]
+    assert diagnostics.text is not None
+    [raw] = compile_text(diagnostics.text).result().extra_elements
     assert raw == f"<mine>\n    {comment}\n    <a/>\n</mine>"
 
 
 def test_elements_kept_raw_for_one_reason_are_reported_once_with_a_count(tmp_path: Path):
-    told = imported_from("<link name='a'/>" + "\n<transmission/>" * 9, tmp_path)
-    [one] = told.diagnostics
+    diagnostics = imported_from("<link name='a'/>" + "\n<transmission/>" * 9, tmp_path)
+    [one] = diagnostics.diagnostics
     assert one.message == "<transmission> is kept as raw XML: it has no 'name'"
     assert [(note.message, note.span.line) for note in one.notes] == [("and 8 more like this, the next one here", 3)]
 
@@ -685,9 +685,11 @@ def test_a_robot_that_no_spec_can_hold_is_reported_at_its_place(limit: Limit, mo
     monkeypatch.setattr("linkforge_compile.importing.check_alone", None)
     links = "".join(f"<link name='l{i}'/>" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<!-- r -->\n<robot name='r'>{links}</robot>")
-    [told] = imported.diagnostics
-    assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", "r.urdf:2:1")
-    assert told.message.startswith(f"a spec of this robot takes more than {limit.most:,} {limit.counted}; for one of")
+    [diagnostic] = imported.diagnostics
+    assert (imported.text, diagnostic.code.id, str(diagnostic.span)) == (None, "LF3301", "r.urdf:2:1")
+    assert diagnostic.message.startswith(
+        f"a spec of this robot takes more than {limit.most:,} {limit.counted}; for one of"
+    )
 
 
 def _leaving(left: int, limit: Limit) -> type[Budget]:
@@ -709,8 +711,8 @@ def test_a_certain_excess_is_reported_where_the_limit_is_reached(
     monkeypatch.setattr("linkforge_compile.importing.charge_entries", None)
     links = "".join(f"<link name='l{i}'/>\n" for i in range(20))
     imported = import_urdf("r.urdf", text=f"<robot name='r'>\n{links}</robot>")
-    [told] = imported.diagnostics
-    assert (imported.text, told.code.id, str(told.span)) == (None, "LF3301", f"r.urdf:{line}:1")
+    [diagnostic] = imported.diagnostics
+    assert (imported.text, diagnostic.code.id, str(diagnostic.span)) == (None, "LF3301", f"r.urdf:{line}:1")
 
 
 _SHAPE = "<{0}><geometry><mesh filename='a.stl' scale='1 1 1'/></geometry></{0}>"

@@ -59,9 +59,12 @@ def elements(element: XmlElement):
 def test_malformed_xml_is_reported_where_its_place_is_certain(text: str, place: tuple[int, int], problem: str):
     sink = Diagnostics()
     assert read_xml(SourceFile("robot.urdf", text), sink) is None
-    [told] = sink
-    assert told.span
-    assert (told.message, (told.span.line, told.span.column)) == (f"this is not XML: {problem}", place)
+    [diagnostic] = sink
+    assert diagnostic.span
+    assert (diagnostic.message, (diagnostic.span.line, diagnostic.span.column)) == (
+        f"this is not XML: {problem}",
+        place,
+    )
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])

@@ -36,9 +36,9 @@ def test_the_files_are_one_afterwards(tmp_path):
             "more/palette.yaml": "variables: {half: $(reach / 2)}\nmaterials: {steel: {color: [1, 1, 1]}}\nlinks:\n",
         },
     )
-    instance, told, files = expanded(tmp_path / "arm.yaml")
+    instance, messages, files = expanded(tmp_path / "arm.yaml")
     tree = plain(instance.tree)
-    assert told == []
+    assert messages == []
     assert list(tree["links"]) == ["base", "arm", "tool"]
     assert tree["links"]["arm"]["visual"]["box"][0].value == 1
     assert tree["links"]["arm"]["visual"]["box"][1].value == 0.5
@@ -118,21 +118,22 @@ def test_names_of_an_unreadable_file_are_not_reported_as_missing(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("count", "told"), [(MAX_DEPTH, []), (MAX_DEPTH + 1, [INCLUDE_TOO_DEEP.message.format(limit=MAX_DEPTH)])]
+    ("count", "expected"), [(MAX_DEPTH, []), (MAX_DEPTH + 1, [INCLUDE_TOO_DEEP.message.format(limit=MAX_DEPTH)])]
 )
-def test_includes_nest_to_a_limit(tmp_path, count, told):
+def test_includes_nest_to_a_limit(tmp_path, count, expected):
     files = {f"{i}.yaml": f"include: [{i + 1}.yaml]\n" for i in range(1, count)}
     write(tmp_path, {**files, "robot.yaml": "name: robot\ninclude: [1.yaml]\n", f"{count}.yaml": "links: {tip: }\n"})
-    assert expanded(tmp_path / "robot.yaml")[1] == told
+    assert expanded(tmp_path / "robot.yaml")[1] == expected
 
 
 @pytest.mark.parametrize(
-    ("count", "told"), [(MAX_INCLUDES, []), (MAX_INCLUDES + 2, [TOO_MANY_INCLUDES.message.format(limit=MAX_INCLUDES)])]
+    ("count", "expected"),
+    [(MAX_INCLUDES, []), (MAX_INCLUDES + 2, [TOO_MANY_INCLUDES.message.format(limit=MAX_INCLUDES)])],
 )
-def test_includes_are_counted(tmp_path, count, told):
+def test_includes_are_counted(tmp_path, count, expected):
     names = [f"{i}.yaml" for i in range(count)]
     write(tmp_path, {**dict.fromkeys(names, ""), "robot.yaml": f"name: robot\ninclude: [{', '.join(names)}]\n"})
-    assert expanded(tmp_path / "robot.yaml")[1] == told
+    assert expanded(tmp_path / "robot.yaml")[1] == expected
 
 
 def test_text_that_lies_in_no_folder_includes_absolute_paths_only(tmp_path):

@@ -61,14 +61,14 @@ def without_includes(arm: Path) -> Path:
 
 
 def test_arguments_of_included_files_are_listed_and_unread_files_reported(arm: Path):
-    listing, told = parameters_of(arm / "arm.urdf.xacro")
+    listing, diagnostics = parameters_of(arm / "arm.urdf.xacro")
     assert [(one.name, one.default) for one in listing.parameters] == [
         ("prefix", ""),
         ("kind", "small"),
         ("mass", "${1 + 1}"),
         ("tool", None),
     ]
-    assert [(one.code.id, one.span.line, one.message.partition(": ")[2]) for one in told] == [
+    assert [(one.code.id, one.span.line, one.message.partition(": ")[2]) for one in diagnostics] == [
         ("LF8061", 6, "its name is known only as xacro runs"),
         ("LF8061", 8, "there is no file 'gone.xacro'"),
     ]
@@ -78,11 +78,11 @@ def test_files_of_a_missing_package_are_reported_and_found_with_package(arm: Pat
     file = tmp_path / "cell.xacro"
     file.write_text(f'{HEAD} name="$(arg name)"><xacro:arg name="name" default="c"/><xacro:include '
                     'filename="$(find parts)/urdf/parts.xacro"/></robot>', "utf-8")  # fmt: skip
-    listing, [told] = parameters_of(file)
-    assert "no package named 'parts'; say where it is with --package parts=FOLDER" in told.message
+    listing, [diagnostic] = parameters_of(file)
+    assert "no package named 'parts'; say where it is with --package parts=FOLDER" in diagnostic.message
     assert [(one.name, one.is_required) for one in listing.parameters] == [("name", True)], "xacro comes too late to it"
-    listing, told = parameters_of(file, packages={"parts": arm.parent})
-    assert ([one.name for one in listing.parameters], told) == (["name", "mass"], ())
+    listing, diagnostic = parameters_of(file, packages={"parts": arm.parent})
+    assert ([one.name for one in listing.parameters], diagnostic) == (["name", "mass"], ())
 
 
 def test_a_urdf_and_its_srdf_take_of_the_arguments_what_each_has(arm: Path, tmp_path: Path):
@@ -91,8 +91,8 @@ def test_a_urdf_and_its_srdf_take_of_the_arguments_what_each_has(arm: Path, tmp_
     imported = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t", "group=arm"])
     assert imported.diagnostics == ()
     assert "groups: {arm: {joints: [a_turn]}}" in imported.text
-    told = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t", "grup=arm"]).diagnostics
-    assert [one.message for one in told] == ["no parameter named 'grup'; did you mean 'group'?"]
+    diagnostics = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t", "grup=arm"]).diagnostics
+    assert [one.message for one in diagnostics] == ["no parameter named 'grup'; did you mean 'group'?"]
 
 
 def test_a_use_expands_the_srdf_with_the_same_arguments(arm: Path, tmp_path: Path):
@@ -127,23 +127,30 @@ def test_faults_of_an_expanded_srdf_are_reported_in_the_macro(arm: Path, tmp_pat
     passive = '<passive_joint name="$(arg prefix)turn"/></robot>'
     srdf.write_text(SRDF.replace("${joint}", "${joint}x").replace("</robot>", passive), "utf-8")
     imported = import_urdf(urdf, srdf=srdf, arguments=["prefix:=a_", "tool:=t"])
-    [told] = imported.diagnostics
-    assert (told.code.id, Path(told.span.file.name).name, told.span.line) == ("LF8021", "arm.srdf.xacro", 5)
+    [diagnostic] = imported.diagnostics
+    assert (diagnostic.code.id, Path(diagnostic.span.file.name).name, diagnostic.span.line) == (
+        "LF8021",
+        "arm.srdf.xacro",
+        5,
+    )
     assert 'a_turnx"/></group>' in imported.text
 
 
 def test_a_urdf_has_no_arguments(arm: Path, tmp_path: Path):
     (tmp_path / "a.urdf").write_text('<robot name="a"><link name="a"/></robot>', "utf-8")
-    [told] = import_urdf(tmp_path / "a.urdf", arguments=["reach:=1"]).diagnostics
-    assert (told.code.id, [note.message for note in told.notes]) == ("LF3020", ["a URDF takes no arguments"])
+    [diagnostic] = import_urdf(tmp_path / "a.urdf", arguments=["reach:=1"]).diagnostics
+    assert (diagnostic.code.id, [note.message for note in diagnostic.notes]) == (
+        "LF3020",
+        ["a URDF takes no arguments"],
+    )
 
 
 def test_a_xacro_on_standard_input_is_reported_without_its_arguments(arm: Path):
-    [told] = import_urdf(
+    [diagnostic] = import_urdf(
         "<stdin>", text=(arm / "arm.urdf.xacro").read_text("utf-8"), arguments=["reach:=1"]
     ).diagnostics
-    assert told.code.id == "LF8013"
-    assert "expanded only in a file named 'NAME.urdf.xacro'" in told.message
+    assert diagnostic.code.id == "LF8013"
+    assert "expanded only in a file named 'NAME.urdf.xacro'" in diagnostic.message
 
 
 def test_a_default_that_is_set_too_late_is_reported_where_xacro_needs_it(tmp_path: Path):
@@ -152,9 +159,9 @@ def test_a_default_that_is_set_too_late_is_reported_where_xacro_needs_it(tmp_pat
     file.write_text(
         f'{HEAD}\n  name="$(arg name)">\n  <xacro:arg name="name" default="a"/><link name="a"/>\n</robot>', "utf-8"
     )
-    [told] = import_urdf(file).diagnostics
-    assert (told.code.id, told.span.line, told.notes[0].span.line) == ("LF8062", 1, 3)
-    assert told.message == "xacro uses 'name' here, before it reads its default; write 'name:=VALUE'"
+    [diagnostic] = import_urdf(file).diagnostics
+    assert (diagnostic.code.id, diagnostic.span.line, diagnostic.notes[0].span.line) == ("LF8062", 1, 3)
+    assert diagnostic.message == "xacro uses 'name' here, before it reads its default; write 'name:=VALUE'"
     assert import_urdf(file, arguments=["name:=b"]).diagnostics == ()
 
 
@@ -163,8 +170,8 @@ def test_an_argument_that_is_used_and_declared_nowhere_can_be_given(tmp_path: Pa
     file = tmp_path / "a.urdf.xacro"
     file.write_text(f'{HEAD} name="a"><link name="$(arg link)"/></robot>', "utf-8")
     assert import_urdf(file, arguments=["link:=b"]).diagnostics == ()
-    [told] = import_urdf(file).diagnostics
-    assert told.code.id == "LF3021"
+    [diagnostic] = import_urdf(file).diagnostics
+    assert diagnostic.code.id == "LF3021"
 
 
 @pytest.mark.parametrize("name", ["arm.urdf", "arm.xacro.urdf"])

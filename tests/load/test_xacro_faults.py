@@ -12,7 +12,7 @@ HEAD = '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="
 MACRO = '<xacro:macro name="rod" params="length *origin"><link name="${length}"/></xacro:macro>'
 
 
-def told(folder: Path, *lines: str) -> tuple[str, str, list[tuple[str, int]]]:
+def fault_in(folder: Path, *lines: str) -> tuple[str, str, list[tuple[str, int]]]:
     """Return the code and message of the one diagnostic, and its places, each the text from there and the line."""
     file = folder / "a.urdf.xacro"
     file.write_text("\n".join((HEAD, *lines, "</robot>")), "utf-8")
@@ -65,20 +65,20 @@ GIVES_UP = "xacro gives up here: "
     ],
 )
 def test_a_fault_is_reported_at_the_expression_or_call(line: str, message: str, place: str, tmp_path: Path):
-    _, words, places = told(tmp_path, MACRO, line)
+    _, words, places = fault_in(tmp_path, MACRO, line)
     assert (words, places) == (message, [(place, 3)])
 
 
 def test_a_faulty_property_is_reported_there_and_where_it_is_needed(tmp_path: Path):
     property_ = '<xacro:property name="table" value="${1 / 0}"/>'
-    code, message, places = told(tmp_path, property_, '<link name="${table}"/>')
+    code, message, places = fault_in(tmp_path, property_, '<link name="${table}"/>')
     assert (code, message) == ("LF8032", "xacro gives up here: division by zero, in '${1 / 0}'")
     assert [line for _, line in places] == [2, 3]
 
 
 def test_a_missing_file_is_reported_with_a_similar_one(tmp_path: Path):
     (tmp_path / "limits.yaml").write_text("a: 1\n", "utf-8")
-    code, message, [(_, line)] = told(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
+    code, message, [(_, line)] = fault_in(tmp_path, "<link name=\"${xacro.load_yaml('limit.yaml')}\"/>")
     assert (code, line) == ("LF8064", 2)
     assert message.startswith("xacro needs the file '")
     assert message.endswith("limit.yaml', which does not exist; did you mean 'limits.yaml'?")
@@ -92,8 +92,8 @@ def test_a_fault_in_a_nested_macro_is_reported_in_that_macro(tmp_path: Path):
         '<xacro:inner a="${none}"/>',
         '</xacro:macro><xacro:outer a="1"/>',
     )
-    assert told(tmp_path, *lines)[2][0][1] == 5
-    assert told(tmp_path, *(line.replace("none", "a") for line in lines))[2][0][1] == 3
+    assert fault_in(tmp_path, *lines)[2][0][1] == 5
+    assert fault_in(tmp_path, *(line.replace("none", "a") for line in lines))[2][0][1] == 3
 
 
 @pytest.mark.parametrize("name", ["", 'name="a"'])

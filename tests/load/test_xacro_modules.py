@@ -162,10 +162,10 @@ def test_a_package_that_is_not_sourced_is_reported_in_the_xacro_with_its_folder(
 def test_xacro_failures_are_reported_where_they_occur(change, line, message, vendor, tmp_path):
     (vendor / "urdf" / "arm.urdf.xacro").write_text(ARM.replace(*change), "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
-    told = place(compilation)
-    assert told[:2] == ("arm.urdf.xacro", line)
-    assert told[2].startswith("xacro gives up here: ")
-    assert message in told[2]
+    place_found = place(compilation)
+    assert place_found[:2] == ("arm.urdf.xacro", line)
+    assert place_found[2].startswith("xacro gives up here: ")
+    assert message in place_found[2]
 
 
 def test_warnings_of_xacro_are_reported(vendor, tmp_path):
@@ -259,11 +259,11 @@ def test_reading_a_path_without_access_is_requested(monkeypatch: pytest.MonkeyPa
     def refuse(path: object) -> str:
         raise PermissionError(errno.EACCES, "Permission denied", str(path))
 
-    asked = io.StringIO()
+    requests = io.StringIO()
     monkeypatch.setattr("os.path.realpath", refuse)
     monkeypatch.setattr("sys.stdin", io.StringIO("false\n"))
-    assert not process._Run(asked)._may_read("/proc/1/exe.py", (Path("/proc"),))
-    assert json.loads(asked.getvalue()) == {"may_read": "/proc/1/exe.py"}
+    assert not process._Run(requests)._may_read("/proc/1/exe.py", (Path("/proc"),))
+    assert json.loads(requests.getvalue()) == {"may_read": "/proc/1/exe.py"}
 
 
 ESCAPES = {
@@ -279,8 +279,8 @@ ESCAPES = {
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the calls are those of POSIX")
-@pytest.mark.parametrize(("call", "told"), ESCAPES.values(), ids=ESCAPES)
-def test_indirect_access_from_an_expression_is_refused(call: str, told: str, vendor: Path, tmp_path: Path):
+@pytest.mark.parametrize(("call", "expected"), ESCAPES.values(), ids=ESCAPES)
+def test_indirect_access_from_an_expression_is_refused(call: str, expected: str, vendor: Path, tmp_path: Path):
     """xacro looks for names with `__` in an expression, and not in the comprehensions inside it."""
     new, kept = tmp_path / "new", tmp_path / "kept"
     kept.write_text("kept", "utf-8")
@@ -292,7 +292,7 @@ def test_indirect_access_from_an_expression_is_refused(call: str, told: str, ven
     arm = vendor / "urdf" / "arm.urdf.xacro"
     arm.write_text(ARM.replace("  <gazebo>", f'  <link name="{value}"/><gazebo>'), "utf-8")
     [diagnostic] = compile_file(arm, packages={"arm_parts": vendor}).diagnostics
-    assert told in str(diagnostic)
+    assert expected in str(diagnostic)
     assert not new.exists()
     assert kept.read_text("utf-8") == "kept"
 

@@ -10,7 +10,7 @@ from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import Lowered, lower
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.syntax import YamlMap, read
-from tests.yaml_case import Told, expected
+from tests.yaml_case import Finding, expected
 
 
 class Spec:
@@ -53,8 +53,8 @@ class Spec:
 
 def prefix_of(entry: SourceRef, name: str) -> str:
     assert isinstance(entry.node, YamlMap)
-    said = entry.node.get("prefix")
-    return f"{name}_" if said is None else said.text  # type: ignore[union-attr]  # the tests write scalars
+    prefix = entry.node.get("prefix")
+    return f"{name}_" if prefix is None else prefix.text  # type: ignore[union-attr]  # the tests write scalars
 
 
 def lowered(spec: Spec | str) -> Lowered:
@@ -63,7 +63,7 @@ def lowered(spec: Spec | str) -> Lowered:
     sink = Diagnostics()
     result = lower(spec.instance(sink, count()), sink)
     wanted = {one for file, text in spec.texts().items() for one in expected(file, text)}
-    assert {told(diagnostic) for diagnostic in sink} == wanted
+    assert {finding_of(diagnostic) for diagnostic in sink} == wanted
     return result
 
 
@@ -74,8 +74,8 @@ def robot_of(spec: Spec | str) -> Robot:
     return result.robot
 
 
-def told(diagnostic) -> Told:
+def finding_of(diagnostic) -> Finding:
     span = diagnostic.span
     assert span is not None, "a spec's fault without a place"
     code = diagnostic.code
-    return Told(span.file.name, span.line, span.column, code.severity, code.id, diagnostic.message)
+    return Finding(span.file.name, span.line, span.column, code.severity, code.id, diagnostic.message)

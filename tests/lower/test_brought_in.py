@@ -33,7 +33,7 @@ joints:
 def test_an_aliased_value_is_shown_with_its_use(line: int, used: str, code: str, notes: list[tuple[str, str]]):
     lines = SPEC.splitlines()
     lines[line - 1] = lines[line - 1].replace("links: {a: ,", used).replace("two: {", used + " ")
-    told = [one for one in compile_text("\n".join(lines), name="r").diagnostics if one.code.id == code]
-    assert [(note.message, str(note.span)) for note in told[0].notes] == [
+    diagnostics = [one for one in compile_text("\n".join(lines), name="r").diagnostics if one.code.id == code]
+    assert [(note.message, str(note.span)) for note in diagnostics[0].notes] == [
         (f"inserted here{owner}", f"r:{place}") for place, owner in notes
     ]

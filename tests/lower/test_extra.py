@@ -78,8 +78,8 @@ def test_short_forms_of_the_semantic_part_have_long_ones():
           link_sphere_approximations: {base: {spheres: [], extra: <l/>}}
     """).semantic
     parts = ("group_states", "passive_joints", "disabled_collisions", "joint_properties", "link_sphere_approximations")
-    said = [part for name in parts for part in getattr(semantic, name)]
-    assert [part.extra_elements for part in said] == [("<s/>",), ("<p/>",), ("<d/>",), ("<j/>",), ("<l/>",)]
+    found = [part for name in parts for part in getattr(semantic, name)]
+    assert [part.extra_elements for part in found] == [("<s/>",), ("<p/>",), ("<d/>",), ("<j/>",), ("<l/>",)]
     assert semantic.groups[0].extra_inside == (Inside("joint", "lid", extra_attributes=(("a", "1"),)),)
     assert semantic.disabled_collisions[0].reason == "Never"
     assert semantic.joint_properties[0].value == "yes"

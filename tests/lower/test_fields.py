@@ -25,7 +25,7 @@ def fields_of(text: str) -> Fields:
     return Fields(tree, "joint 'elbow'", sink)
 
 
-def told(fields: Fields) -> list[str]:
+def reports_of(fields: Fields) -> list[str]:
     return [str(diagnostic) for diagnostic in fields.sink.sorted()]
 
 
@@ -35,7 +35,7 @@ def test_what_is_absent_or_null_is_read_as_none_in_silence():
     assert fields.text("name") is None
     assert fields.vector3("axis") is None
     assert lower_pose(fields) == Transform.identity()
-    assert told(fields) == []
+    assert reports_of(fields) == []
 
 
 def test_a_missing_required_field_is_reported_at_the_object_with_a_remedy():
@@ -44,7 +44,7 @@ def test_a_missing_required_field_is_reported_at_the_object_with_a_remedy():
     limits = fields.map("limits")
     assert limits is not None
     assert limits.number("effort", NumberType((Dimension.TORQUE,)), required="50 N*m") is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:1: error: joint 'elbow' has no 'parent'; write one, such as 'parent: base' [LF5005]",
         "spec.yaml:1:9: error: joint 'elbow' has no 'limits.effort'; write one, such as 'effort: 50 N*m' [LF5005]",
     ]
@@ -61,7 +61,7 @@ def test_a_reported_fault_has_no_value_and_is_not_reported_again():
     assert fields.choice("x", Colour) is None
     assert fields.names("x") == ()
     assert list(fields.each("x", "link", lambda _, name: name)) == []
-    assert told(fields) == []
+    assert reports_of(fields) == []
 
 
 @pytest.mark.parametrize(("text", "number"), [("3", 3), ("3.0", 3), ("-2", -2)])
@@ -72,7 +72,7 @@ def test_a_whole_number_is_an_integer(text, number):
 def test_half_a_sample_is_reported():
     fields = fields_of("samples: 2.5")
     assert fields.integer("samples") is None
-    assert told(fields) == ["spec.yaml:1:10: error: samples takes a whole number, found 2.5 [LF5001]"]
+    assert reports_of(fields) == ["spec.yaml:1:10: error: samples takes a whole number, found 2.5 [LF5001]"]
 
 
 def test_only_true_and_false_are_flags():
@@ -80,7 +80,7 @@ def test_only_true_and_false_are_flags():
     fields = fields_of("static: 1\ngravity: yes")
     assert fields.flag("static") is None
     assert fields.flag("gravity") is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:9: error: static takes true or false, found 1 [LF5001]",
         "spec.yaml:2:10: error: 'yes' is text in YAML 1.2, not true or false; write true [LF3143]",
     ]
@@ -95,7 +95,7 @@ def test_a_word_is_one_of_its_enumeration():
     assert fields_of("color: blue").choice("color", Colour) is Colour.BLUE
     fields = fields_of("color: blu")
     assert fields.choice("color", Colour) is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:8: error: color is one of red, blue, found 'blu'; did you mean 'blue'? [LF5007]"
     ]
 
@@ -103,7 +103,7 @@ def test_a_word_is_one_of_its_enumeration():
 def test_a_name_with_a_space_is_reported_at_the_name():
     fields = fields_of("joint: left mount")
     assert fields.name("joint", "joint") is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:8: error: 'left mount' is not a valid name for a joint: it may not contain ' ' [LF4001]"
     ]
 
@@ -118,7 +118,7 @@ def test_an_origin_is_three_lengths_or_a_map_of_xyz_and_rpy():
 def test_each_number_of_a_vector_is_reported_at_its_place():
     fields = fields_of("box: [1, 2 kg, 0]")
     assert fields.vector3("box", EXTENT) is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:10: error: box takes a length such as '25 mm', found '2 kg', which is a mass [LF5002]",
         "spec.yaml:1:16: error: box must be above 0 m, found 0 [LF5006]",
     ]
@@ -137,7 +137,7 @@ def test_an_entry_without_a_value_is_an_empty_object_at_its_name():
     assert entries["arm"] is None
     name, key = entries["base"]
     assert (name, str(key.span)) == ("base", "spec.yaml:1:9")
-    assert told(fields) == ["spec.yaml:1:22: error: link 'arm' takes a map, found 3 [LF5001]"]
+    assert reports_of(fields) == ["spec.yaml:1:22: error: link 'arm' takes a map, found 3 [LF5001]"]
 
 
 def test_what_a_constructor_refuses_is_reported_at_its_field():
@@ -145,6 +145,6 @@ def test_what_a_constructor_refuses_is_reported_at_its_field():
     size = fields.map_at(fields.node, "box")
     assert size is not None
     assert size.build(lambda: Box(Vector3(1.0, -1.0, 1.0))) is None
-    assert told(fields) == [
+    assert reports_of(fields) == [
         "spec.yaml:1:1: error: box of joint 'elbow': box dimensions must be positive [m], found 1.0 -1.0 1.0 [LF5011]"
     ]

@@ -72,8 +72,8 @@ def test_collision_visual_copies_shapes_and_places_but_not_names():
     ],
 )
 def test_shapes_are_in_the_order_of_their_keys_or_of_shape_order(keys: str, order: str):
-    said = keys.replace("BALLS", "[{sphere: 1}, {sphere: 2}]").replace("BALL", "{sphere: 3}")
-    link = robot_of(f"name: arm\nlinks: {{base: {{{said}}}}}").link("base")
+    written = keys.replace("BALLS", "[{sphere: 1}, {sphere: 2}]").replace("BALL", "{sphere: 3}")
+    link = robot_of(f"name: arm\nlinks: {{base: {{{written}}}}}").link("base")
     assert "".join(type(shape).__name__[0] for shape in link.shapes) == order
     assert [shape for shape in link.shapes if isinstance(shape, Visual)] == list(link.visuals)
 

@@ -171,14 +171,14 @@ def test_a_fault_of_a_mesh_has_notes_of_its_purpose_and_use(tmp_path):
 
 def test_every_faulty_mesh_of_a_link_is_reported(tmp_path):
     save(together(CUBE, turned_inside_out(block(1, 1, 1, at=(9, 0, 0)))), tmp_path / "two.stl")
-    told = messages(compile_file(spec(tmp_path, link("[{mesh: two.stl}, {mesh: lost.stl}, {sphere: 1}]"))))
-    assert [message.partition(":")[0] for message in told] == ["LF6018", "LF6011"]
+    messages_found = messages(compile_file(spec(tmp_path, link("[{mesh: two.stl}, {mesh: lost.stl}, {sphere: 1}]"))))
+    assert [message.partition(":")[0] for message in messages_found] == ["LF6018", "LF6011"]
 
 
 def test_a_scale_that_leaves_nothing_is_refused(tmp_path):
     save(CUBE, tmp_path / "cube.stl")
-    told = messages(compile_file(spec(tmp_path, link("{mesh: {file: cube.stl, scale: 1e-200}}"))))
-    assert told == [
+    messages_found = messages(compile_file(spec(tmp_path, link("{mesh: {file: cube.stl, scale: 1e-200}}"))))
+    assert messages_found == [
         "LF5011: inertial of link 'base': a scale of 1e-200 1e-200 1e-200 takes the volume of the mesh to 0.0 m³"
     ]
 
@@ -187,8 +187,8 @@ def test_a_pipe_is_no_mesh(tmp_path):
     if not hasattr(os, "mkfifo"):
         pytest.skip("no pipes here")
     os.mkfifo(tmp_path / "cube.stl")
-    (told,) = messages(compile_file(spec(tmp_path, link("{mesh: cube.stl}"))))
-    assert told.endswith("it is no regular file")
+    (message,) = messages(compile_file(spec(tmp_path, link("{mesh: cube.stl}"))))
+    assert message.endswith("it is no regular file")
 
 
 def test_mujoco_weighs_the_meshes_of_the_good_case_as_we_do():

@@ -75,7 +75,7 @@ def test_its_parent_is_found_where_its_module_is_used(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("leg", "told"),
+    ("leg", "expected"),
     [
         ("parent: trunk, override: {joints: {ankle: null}}", ["LF5404"]),
         ("parent: trunk, prefix: right_", ["LF4106"]),
@@ -83,19 +83,21 @@ def test_its_parent_is_found_where_its_module_is_used(tmp_path):
         ("joint: hip", ["LF5301"]),
     ],
 )
-def test_an_error_in_a_robot_is_not_reported_at_references_to_it(tmp_path, leg, told):
+def test_an_error_in_a_robot_is_not_reported_at_references_to_it(tmp_path, leg, expected):
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     right = "right: {use: leg.robot.yaml, parent: trunk}"
     text = f"linkforge: 1\nname: w\nlinks: {{trunk: }}\nmodules: {{{right}, left: {{use: leg.robot.yaml, {leg}}}}}"
     compiled = compile_text(text, folder=tmp_path)
-    assert [one.code.id for one in compiled.diagnostics if one.severity is Severity.ERROR] == told
+    assert [one.code.id for one in compiled.diagnostics if one.severity is Severity.ERROR] == expected
 
 
 def test_a_module_without_parent_is_reported_with_its_written_links(tmp_path):
     (tmp_path / "leg.robot.yaml").write_text(LEG)
     text = "linkforge: 1\nname: w\nlinks: {trunk: }\nmodules: {left: {use: leg.robot.yaml}}"
-    (told,) = [one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR]
-    assert told.startswith("the robot has 2 roots, 'trunk' and 'left_hip'")
+    (message,) = [
+        one.message for one in compile_text(text, folder=tmp_path).diagnostics if one.severity is Severity.ERROR
+    ]
+    assert message.startswith("the robot has 2 roots, 'trunk' and 'left_hip'")
 
 
 def test_a_mount_joint_is_not_a_link(tmp_path):

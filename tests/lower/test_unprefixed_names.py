@@ -27,11 +27,11 @@ CELL = "name: cell\nlinks: {table: , finger: }\njoints: {j: {type: fixed, parent
 
 
 def used(inner: Spec, **fields: str) -> Spec:
-    said = ", ".join(f"{key}: {value}" for key, value in {"parent": "table", **fields}.items())
-    return Spec(f"{CELL}modules: {{left: {{{said}}}}}\n", {"left": inner})
+    entry = ", ".join(f"{key}: {value}" for key, value in {"parent": "table", **fields}.items())
+    return Spec(f"{CELL}modules: {{left: {{{entry}}}}}\n", {"left": inner})
 
 
-def told_gripper() -> Spec:
+def reported_gripper() -> Spec:
     text = GRIPPER
     for sign, expectation in TOLD.items():
         text = text.replace(sign, expectation)
@@ -39,7 +39,7 @@ def told_gripper() -> Spec:
 
 
 def test_names_in_plugins_and_absolute_topics_are_reported_under_a_prefix():
-    robot_of(used(told_gripper()))
+    robot_of(used(reported_gripper()))
 
 
 def test_nothing_is_reported_for_the_compiled_file():
@@ -54,7 +54,7 @@ def test_nothing_is_reported_if_names_do_not_change():
 
 def test_a_prefix_further_out_counts_as_well():
     arm = Spec(
-        "name: arm\nlinks: {flange: }\nmodules: {hand: {parent: flange, prefix: ''}}\n", {"hand": told_gripper()}
+        "name: arm\nlinks: {flange: }\nmodules: {hand: {parent: flange, prefix: ''}}\n", {"hand": reported_gripper()}
     )
     robot_of(used(arm))
 
@@ -71,9 +71,9 @@ def test_names_of_the_files_around_are_no_names_of_the_file():
 
 def test_names_anywhere_in_raw_xml_are_reported():
     unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
-    said = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
+    entry = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
     for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb", '<a x=">" b="bulb"/>'):
-        robot_of(used(Spec(f"{unnamed}{raw}{said}\n")))
+        robot_of(used(Spec(f"{unnamed}{raw}{entry}\n")))
     for raw in (
         "bulb>",
         "a b='bulb'>",
@@ -90,13 +90,13 @@ def test_names_anywhere_in_raw_xml_are_reported():
     "text", ["bulb,shade", "bulb, other", "[bulb]", "['bulb', 'other']", "bulb stand", "[bulb stand]"]
 )
 def test_each_name_in_a_list_is_reported(text: str):
-    said = " ## ".join(
+    entry = " ## ".join(
         f"W[LF5704]:8 '{name}' is a link of this file and takes the prefix, but not here; write '$(link('{name}'))'"
         for name in ("bulb", "stand")
         if name in text
     )
     unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
-    robot_of(used(Spec(f"{unnamed}<a>{text}</a>  # {said}\n")))
+    robot_of(used(Spec(f"{unnamed}<a>{text}</a>  # {entry}\n")))
 
 
 @pytest.mark.parametrize("text", ["the bulb", "turn, the bulb", "bulb-stand", "bulb stand lamp", "bulb/a,b"])

@@ -12,7 +12,7 @@ from linkforge_compile.syntax import YamlFault, YamlMap, read
 HEADER = "linkforge: 1\nname: arm\n"
 
 
-def judged(text: str) -> tuple[YamlMap, list[str]]:
+def validated(text: str) -> tuple[YamlMap, list[str]]:
     """Return what is left of the tree, and each fault as `line:column message`."""
     sink = Diagnostics()
     tree = read(SourceFile("arm.robot.yaml", dedent(text)), sink)
@@ -26,7 +26,7 @@ def judged(text: str) -> tuple[YamlMap, list[str]]:
 
 def sentences(text: str) -> list[str]:
     """Return the messages about a body that follows a correct header, without the places."""
-    return [fault.split(" ", 1)[1] for fault in judged(HEADER + dedent(text))[1]]
+    return [fault.split(" ", 1)[1] for fault in validated(HEADER + dedent(text))[1]]
 
 
 SENTENCES = {
@@ -139,7 +139,7 @@ def test_nothing_is_reported_where(body: str):
 
 
 def test_all_faults_are_reported_at_once_each_at_its_place():
-    _, reported = judged("""\
+    _, reported = validated("""\
         linkforge: 1
         name: arm
         link: {}
@@ -196,23 +196,23 @@ def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_reported():
 
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
 def test_a_missing_version_is_reported_first(text: str):
-    _, reported = judged(text)
+    _, reported = validated(text)
     assert reported == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
 
 
 def test_another_version_is_reported_at_its_number():
-    _, reported = judged("linkforge: 2\nname: arm\n")
+    _, reported = validated("linkforge: 2\nname: arm\n")
     assert reported == ["1:12 'linkforge' takes 1, the version of the language, found 2"]
 
 
 def test_a_robot_without_a_name_is_reported():
-    assert judged("linkforge: 1\n")[1] == [
+    assert validated("linkforge: 1\n")[1] == [
         "1:1 a robot needs a 'name'; a file for 'include' is checked with the one that includes it"
     ]
 
 
 def test_what_is_faulty_does_not_go_on_and_the_rest_does():
-    left, _ = judged(HEADER + "foo: 1\nlinks:\n  arm: {visuals: 1, inertial: {mass: [3], density: 2700}}\n  base:\n")
+    left, _ = validated(HEADER + "foo: 1\nlinks:\n  arm: {visuals: 1, inertial: {mass: [3], density: 2700}}\n  base:\n")
     links = left.get("links")
     assert isinstance(links, YamlMap)
     assert isinstance(left.get("foo"), YamlFault)

@@ -173,7 +173,7 @@ def test_text_of_several_lines_is_kept_unchanged():
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "written_found"),
     [
         ("90 deg", "90 deg"),
         ("package://arm/a.stl", "package://arm/a.stl"),
@@ -191,8 +191,8 @@ def test_text_of_several_lines_is_kept_unchanged():
         ("a # b", '"a # b"'),
     ],
 )
-def test_text_is_quoted_only_where_it_must_be(text: str, said: str):
-    assert written({"key": text}) == f"key: {said}\n"
+def test_text_is_quoted_only_where_it_must_be(text: str, written_found: str):
+    assert written({"key": text}) == f"key: {written_found}\n"
 
 
 def test_numbers_stay_as_they_were_spelled_and_computed_ones_are_spelled_shortest():

@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--samples", metavar="N", type=_count, default=10_000, help="how many random positions (default: 10000)"
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="the seed of the positions (default: 0)")
+    parser.add_argument("--seed", metavar="N", type=_seed, default=0, help="the seed of the positions (default: 0)")
     parser.add_argument(
         "--jobs", metavar="N", type=_count, default=_processors(), help="how many processes (default: one a processor)"
     )
@@ -140,6 +140,7 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
     from linkforge_compile.collisions.matrix import find_matrix
     from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.diagnostics import Diagnostics
+    from linkforge_compile.diagnostics.grouping import group_alike
 
     sink = Diagnostics()
     settings = SamplingSettings(arguments.samples, arguments.seed, arguments.jobs)
@@ -148,7 +149,7 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
         matrix = find_matrix(robot, settings, bar.show, sink, is_all=arguments.all)
     finally:
         bar.close()
-    report(sink.sorted(), arguments)
+    report(group_alike(sink.sorted()), arguments)
     return matrix
 
 
@@ -181,6 +182,12 @@ def _json_text(matrix: Matrix, arguments: argparse.Namespace) -> str:
 def _count(text: str) -> int:
     if not text.isdecimal() or not int(text):
         raise argparse.ArgumentTypeError(f"takes a whole number above 0, found '{text}'")
+    return int(text)
+
+
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"takes a whole number from 0 on, found '{text}'")
     return int(text)
 
 

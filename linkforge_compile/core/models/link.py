@@ -234,7 +234,7 @@ class Link(Sourced):  # noqa: PLW1641 its `__eq__` is for type checkers alone
     def with_prefix(self, prefix: str) -> Self:
         """Return a new link with its name and those of its visuals and collisions prefixed.
 
-        A link of a derived class is copied, not constructed: its constructor may take anything.
+        A link of a derived class is copied, not constructed: its constructor may accept anything.
 
         Raises:
             RobotValidationError: INVALID_NAME, where the prefix makes a name that no link may have.

@@ -89,8 +89,8 @@ class SemanticField:
 class RobotParts(Sourced):
     """The parts of a robot, each kind in the order in which they were added.
 
-    The collections are tuples with look-up by name (see NamedTable), and take any iterable. Two links or two joints of
-    one name are refused, by assignment too. Sensors, transmissions, ros2_controls and controllers of one name can be
+    The collections are tuples with look-up by name (see NamedTable), and accept any iterable. Two links or two joints
+    of one name are refused, by assignment too. Sensors, transmissions, ros2_controls and controllers of one name can be
     assigned, so that a faulty robot can be read and checked; adding and merging refuse them.
     """
 

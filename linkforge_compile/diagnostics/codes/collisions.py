@@ -10,3 +10,10 @@ UNKNOWN_SHAPE = Code(
 UNREADABLE_SHAPE = Code(
     "LF7702", _E, "the mesh '{file}' of a collision cannot be read, so its link cannot be sampled: {reason}"
 )
+HIDDEN_COLLISIONS = Code(
+    "LF7703",
+    Severity.NOTE,
+    "{pair} collide in the default pose, but not in most others, where no check will find it; list them in "
+    "'enabled_collisions' to keep the check",
+    subject="pair",
+)

@@ -155,41 +155,6 @@ NO_MESSAGES = Code(
     subject="sensor",
 )
 
-# LF76xx: control and planning
-NO_LIMIT_FOR_MOVEIT = Code(
-    "LF7601",
-    _W,
-    "MoveIt plans no motion of '{joint}' without a greatest {limit}; write `{limit}` in its `limits`",
-    subject="joint",
-    grouped_by=("limit",),
-)
-NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: none that turns or slides by itself")
-
-NO_HARDWARE = Code("LF7603", _E, "robot '{robot}' has no `ros2_control`, so there is nothing to control")
-CONTROLLER_LACKS = Code("LF7604", _W, "controller '{controller}' of type {type} does not start without {parameter}")
-NOT_OF_CONTROLLER = Code(
-    "LF7605",
-    _W,
-    "a {type} has no '{field}'; that of '{controller}' is left out",
-    subject="controller",
-    grouped_by=("type", "field"),
-)
-NOT_OF_HARDWARE = Code(
-    "LF7606",
-    _W,
-    "controller '{controller}' does not start: joint '{joint}' has no command interface in `ros2_control`",
-    subject="joint",
-    grouped_by=("controller",),
-)
-NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
-NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
-NOTHING_EXECUTES = Code(
-    "LF7609",
-    _W,
-    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
-    subject="group",
-)
-
 # LF75xx: SDF
 NOT_IN_SDF = Code(
     "LF7501", _W, "SDF has no {parts}; that of '{name}' is left out", subject="name", grouped_by=("parts",)
@@ -227,6 +192,41 @@ FREE_IN_SDF = Code(
 )
 MESH_STAYS_A_URI = Code(
     "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
+)
+
+# LF76xx: control and planning
+NO_LIMIT_FOR_MOVEIT = Code(
+    "LF7601",
+    _W,
+    "MoveIt plans no motion of '{joint}' without a greatest {limit}; write `{limit}` in its `limits`",
+    subject="joint",
+    grouped_by=("limit",),
+)
+NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: none that turns or slides by itself")
+
+NO_HARDWARE = Code("LF7603", _E, "robot '{robot}' has no `ros2_control`, so there is nothing to control")
+CONTROLLER_LACKS = Code("LF7604", _W, "controller '{controller}' of type {type} does not start without {parameter}")
+NOT_OF_CONTROLLER = Code(
+    "LF7605",
+    _W,
+    "a {type} has no '{field}'; that of '{controller}' is left out",
+    subject="controller",
+    grouped_by=("type", "field"),
+)
+NOT_OF_HARDWARE = Code(
+    "LF7606",
+    _W,
+    "controller '{controller}' does not start: joint '{joint}' has no command interface in `ros2_control`",
+    subject="joint",
+    grouped_by=("controller",),
+)
+NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
+NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
+NOTHING_EXECUTES = Code(
+    "LF7609",
+    _W,
+    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
+    subject="group",
 )
 
 # LF72xx: templates of users

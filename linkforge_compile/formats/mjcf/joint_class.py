@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.formats.element import leaf_at
@@ -27,19 +27,19 @@ class Settings(NamedTuple):
 
 
 class JointClass(NamedTuple):
-    """The most frequent settings of each tag that two elements or more have."""
+    """By tag, the settings that more than half of its elements have, and two at least."""
 
     settings: Mapping[str, Settings]
 
     @classmethod
-    def of(cls, all_settings: Iterable[Settings]) -> JointClass:
-        stated = [one for one in all_settings if any(value is not None for value in one.values.values())]
-        counts = Counter(map(_key, stated))
+    def of(cls, all_settings: Sequence[Settings]) -> JointClass:
+        elements = Counter(one.tag for one in all_settings)
+        sharing = Counter(map(_key, all_settings))
         common: dict[str, Settings] = {}
-        for one in stated:
-            most = counts[_key(common[one.tag])] if one.tag in common else 1
-            if counts[_key(one)] > most:
-                common[one.tag] = one
+        for one in all_settings:
+            has_values = any(value is not None for value in one.values.values())
+            if has_values and sharing[_key(one)] > max(1, elements[one.tag] / 2):
+                common.setdefault(one.tag, one)
         return cls(common)
 
     def attributes(self, tag: str, values: Values) -> dict[str, Spellable | None]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics.codes.formats import (
     IMPOSSIBLE_FOR_MUJOCO,
@@ -16,18 +16,16 @@ from linkforge_compile.diagnostics.codes.formats import (
     NOT_IN_MJCF,
     ONE_ACTUATOR,
     OPPOSITE_SIGN,
-    TAKEN_IN_MUJOCO,
     WORLD_BELOW_JOINT,
 )
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
-from linkforge_compile.formats.mjcf.joints import SINGLE, free_joint_name, part_names
-from linkforge_compile.formats.mjcf.keyframes import states_of
+from linkforge_compile.formats.mjcf.joints import SINGLE
 from linkforge_compile.formats.mjcf.losses import lost_parts
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
+from linkforge_compile.formats.mjcf.names import check_names
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
-from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -109,37 +107,3 @@ def check_messages(robot: Robot) -> Iterator[Diagnostic]:
     for sensor in robot.sensors:
         if sensor_loss(sensor) is None:
             yield NO_MESSAGES.at(sensor.source, sensor=sensor.name)
-
-
-def check_names(robot: Robot, tree: KinematicTree, *, is_free: bool) -> Iterator[Diagnostic]:
-    """MuJoCo refuses two joints of one name, and two keyframes; some of their names are made of others."""
-    yield from _taken("joints", sorted(_joint_names(tree, is_free=is_free), key=lambda named: named.is_own))
-    yield from _taken("keyframes", [Named(one.name, one.origin, one.source) for one in states_of(robot)])
-
-
-class Named(NamedTuple):
-    """A name in the MJCF, what has it, in words, and its place; `is_own` if it is that of the robot, too."""
-
-    name: str
-    owner: str
-    source: SourceRef | None
-    is_own: bool = False
-
-
-def _joint_names(tree: KinematicTree, *, is_free: bool) -> Iterator[Named]:
-    for link, joint, _ in tree.nodes:
-        if joint is None:
-            if is_free and link.name != WORLD:
-                yield Named(free_joint_name(link.name), f"the free joint of link '{link.name}'", link.source)
-            continue
-        for name in part_names(joint):
-            is_own = name == joint.name
-            yield Named(name, f"a part of {joint.type} joint '{joint.name}'", joint.source, is_own)
-
-
-def _taken(parts: str, names: Iterable[Named]) -> Iterator[Diagnostic]:
-    first: dict[str, Named] = {}
-    for named in names:
-        other = first.setdefault(named.name, named)
-        if other is not named:
-            yield TAKEN_IN_MUJOCO.at(named.source, "name", parts=parts, name=named.name, owner=other.owner)

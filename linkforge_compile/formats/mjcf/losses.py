@@ -118,8 +118,7 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
 
 
 _WITHOUT_LOSS = ("xmlns", "quat_xyzw")
-"""Raw attributes that MJCF needs not: namespaces, and a turn that `rpy` has as well."""
-
+"""Raw attributes that MJCF does not need: namespaces, and a turn that `rpy` has as well."""
 
 _RAW = "raw XML of a URDF"
 
@@ -131,7 +130,7 @@ def _raw_xml(robot: Robot) -> Iterator[Loss]:
     yield from _lost_texts(robot, robot.name, robot.source)
     for held in (*kept.with_extras, *semantic.with_extras):
         if any(isinstance(part, Joint) and part.type == JointType.FIXED for part in (held.part, *held.around)):
-            continue  # an axis or a limit, which a fixed joint has no use for
+            continue  # an axis or a limit, which does nothing in a fixed joint
         names = (getattr(part, "name", None) for part in (held.part, *reversed(held.around)))
         yield from _lost_texts(held.part, next(filter(None, names), robot.name), held.where)
 

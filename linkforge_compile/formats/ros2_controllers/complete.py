@@ -39,20 +39,23 @@ def commanded_joints(robot: Robot) -> dict[str, Ros2ControlJoint]:
 
 
 def _default_controllers(robot: Robot) -> Iterator[Controller]:
-    """Yield the broadcaster of joint states, and one controller for each group with joints of its own."""
+    """Yield the broadcaster of joint states, and one controller for each group with joints of its own.
+
+    Groups of other groups come last, so that each arm has a controller, and not all of them one.
+    """
     yield Controller("joint_state_broadcaster", STATES)
     hardware, groups = commanded_joints(robot), joints_by_group(robot)
     tools = {effector.group for effector in robot.semantic.end_effectors} if groups else frozenset[str]()
-    sources = {group.name: group.source for group in robot.semantic.groups} if groups else {}
+    stated = {group.name: group for group in robot.semantic.groups} if groups else {}
     taken: set[str] = set()
-    for name, members in groups.items():
-        joints = [joint.name for joint in members if joint.name in hardware]
+    for name in sorted(groups, key=lambda name: bool(stated[name].subgroups)):
+        joints = [joint.name for joint in groups[name] if joint.name in hardware]
         if not joints or not taken.isdisjoint(joints):
             continue
         taken.update(joints)
         is_gripper = name in tools and len(joints) == 1 and "position" in hardware[joints[0]].command_interfaces
         controller = Controller(f"{name}_controller", GRIPPER if is_gripper else TRAJECTORY, name)
-        yield controller.with_source(sources[name])
+        yield controller.with_source(stated[name].source)
     if not groups and (joints := [joint.name for joint in actuated_joints(robot) if joint.name in hardware]):
         yield Controller("joint_trajectory_controller", TRAJECTORY, joints=joints)
 
