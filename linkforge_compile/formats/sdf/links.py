@@ -13,6 +13,7 @@ from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.raw_sensors import sensors_of_frame
 from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
 from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.views import View
@@ -43,11 +44,15 @@ class Links:
             attributes=attributes_at(link.source, name=link.name),
             pose=pose_of_frame(self._layout.joint_names[joint.name] if joint else None),
             inertial=inertial_element(link, is_weightless=link.name in self._layout.weightless),
-            settings=link_elements(self._settings.get(link.name, ())),
+            settings=self._settings_of(link, held),
             visuals=[self._visual(each, one, link, taken) for one in held for each in one.visuals],
             collisions=[self._collision(each, one, link, taken) for one in held for each in one.collisions],
             sensors=[sensor for one in held for sensor in sensors.get(one.name, ())],
         )
+
+    def _settings_of(self, link: Link, held: Iterable[Link]) -> Xml:
+        of_frames = (sensors_of_frame(self._settings.get(one.name, ()), one.name) for one in held if one is not link)
+        return Xml("".join([link_elements(self._settings.get(link.name, ())), *of_frames]))
 
     def _visual(self, visual: Visual, link: Link, body: Link, taken: set[str]) -> Xml:
         of_gazebo = shape_elements("visual", self._settings.get(link.name, ()))
