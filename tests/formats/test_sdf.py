@@ -223,6 +223,10 @@ def test_a_joint_with_the_name_of_a_link_is_renamed(tmp_path: Path):
             ["LF7505 SDF has the name 'world' for a frame of its own; rename this one"],
         ),
         (
+            "links: {base: {inertial: *unit, gazebo: {properties: {sensor: {_name: 'head::imu', _type: imu}}}}}",
+            ["LF7505 SDF has the name 'head::imu' for a frame of its own; rename this one"],
+        ),
+        (
             TWO + "joints: {glide: {type: planar, parent: base, child: hand, axis: z}}",
             ["LF7507 SDF has no planar joints, so 'glide' is left out and link 'hand' moves freely"],
         ),
@@ -253,6 +257,16 @@ def test_a_loss_or_change_is_reported(text: str, messages: list[str]):
 def test_an_inertia_that_no_body_can_have_is_changed(tmp_path: Path):
     found = read("links: {base: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 3}}}}", tmp_path)
     assert found.links["base"]["inertia"][:3] == pytest.approx([2, 2, 4])
+
+
+def test_a_flat_body_with_products_of_inertia_is_accepted(tmp_path: Path):
+    """The tensor of a body in a plane, from a CAD program; one of its moments is 0."""
+    tensor = (
+        "{ixx: 6.11447595931231e-08, iyy: 1.04273395497727e-05, izz: 1.04884810136062e-05, "
+        "ixy: 7.98473472450901e-07, ixz: 4.14523819570641e-09, iyz: -3.17421643702653e-10}"
+    )
+    found = read(f"links: {{base: {{inertial: {{mass: 0.03, inertia: {tensor}}}}}}}", tmp_path)
+    assert found.links["base"]["inertia"][2] == pytest.approx(1.04884810136062e-05, rel=1e-6)
 
 
 def test_a_mesh_that_is_not_found_is_reported_where_files_are_requested():

@@ -28,7 +28,7 @@ from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.meshes import MeshUris
-from linkforge_compile.formats.sdf.settings import lost_settings
+from linkforge_compile.formats.sdf.settings import lost_settings, settings_by_reference
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
 from linkforge_compile.source import SourceRef
 
@@ -37,6 +37,10 @@ if TYPE_CHECKING:
 
 Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str | int, ...]]
 """What SDF has no place for, the name of the part, and where it was written."""
+
+
+_NESTED = "::"
+"""Between the names of a nested model and of a part of it."""
 
 
 def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
@@ -52,12 +56,19 @@ def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
 
 
 def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
-    """Links, joints and frames of a model share their names; SDF has `world` and `__…__` for itself."""
+    """Links, joints and frames of a model share their names; SDF has `world`, `__…__` and `…::…` for itself."""
     parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
     for part in parts:
         is_world = isinstance(part, Link) and layout.is_world(part.name)
         if not is_world and (part.name == WORLD or (part.name.startswith("__") and part.name.endswith("__"))):
             yield RESERVED_IN_SDF.at(part.source, name=part.name)
+    for sensor in robot.sensors:
+        if _NESTED in sensor.name:
+            yield RESERVED_IN_SDF.at(sensor.source, name=sensor.name)
+    for settings in settings_by_reference(robot).values():
+        for setting in settings:
+            if setting.tag != "plugin" and (name := next((one for one in setting.names if _NESTED in one), None)):
+                yield RESERVED_IN_SDF.at(setting.source, *setting.path, name=name)
     for joint in robot.joints:
         if (name := layout.joint_names[joint.name]) != joint.name:
             yield RENAMED_IN_SDF.at(joint.source, joint=joint.name, name=name)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
-from linkforge_compile.core.moments import possible_inertia
+from linkforge_compile.core.moments import possible_inertia, principal_moments
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
 from linkforge_compile.formats.sdf.layout import Layout
@@ -96,7 +96,7 @@ def inertial_element(link: Link, *, is_weightless: bool) -> Xml:
     if is_weightless or inertial is None:
         least = MIN_REASONABLE_INERTIA
         inertial = Inertial(LEAST_MASS, inertia=InertiaTensor(least, least, least))
-    tensor, where = possible_inertia(inertial.inertia), inertial.inertia.source
+    tensor, where = _accepted(inertial.inertia), inertial.inertia.source
     entries = (text(name, getattr(tensor, name), where, name) for name in InertiaTensor.ATTRIBUTE_ORDER)
     return parent(
         "inertial",
@@ -108,4 +108,10 @@ def inertial_element(link: Link, *, is_weightless: bool) -> Xml:
 
 def has_possible_inertia(link: Link) -> bool:
     """Whether a body can have the tensor of a link."""
-    return possible_inertia(link.inertia) == link.inertia
+    return _accepted(link.inertia) == link.inertia
+
+
+def _accepted(inertia: InertiaTensor) -> InertiaTensor:
+    """Return a tensor that Gazebo accepts: its closed formula for moments of one with products errs by 1e-8 of them."""
+    has_products = inertia.ixy or inertia.ixz or inertia.iyz
+    return possible_inertia(inertia, 1e-7 * principal_moments(inertia)[2] if has_products else 0.0)

@@ -41,6 +41,14 @@ class Setting(NamedTuple):
             value = value.get("_value", value.get("_text", ""))
         return value.strip() if isinstance(value, str) else None
 
+    @property
+    def names(self) -> Sequence[str]:
+        """The attributes `name` of the elements of this tag."""
+        if self.is_raw and isinstance(self.value, str):
+            return [element.get("name") or "" for element in well_formed_elements(self.value)]
+        parts = [self.value] if isinstance(self.value, str | Mapping) else self.value
+        return [str(part.get("_name", "")) for part in parts if isinstance(part, Mapping)]
+
 
 Settings: TypeAlias = Sequence[Setting]
 
