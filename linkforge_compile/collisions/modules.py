@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.srdf import CollisionPair
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.source import SourceRef, Span
 
 
