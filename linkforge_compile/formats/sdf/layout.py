@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -80,6 +80,15 @@ class Layout:
                 link = self.frames[link]
             bodies |= dict.fromkeys(trail, bodies.get(link, link))
         return bodies
+
+    @cached_property
+    def held(self) -> Mapping[str, Sequence[Link]]:
+        """The links that each body holds: itself, and its frames."""
+        held: dict[str, list[Link]] = {}
+        for link in self.robot.links:
+            if not self.is_world(link.name):
+                held.setdefault(self.body_of(link.name), []).append(link)
+        return held
 
     def is_joint(self, joint: Joint) -> bool:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""

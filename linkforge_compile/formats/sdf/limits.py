@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.geometry import Mesh
-from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
     FREE_IN_SDF,
@@ -15,23 +14,17 @@ from linkforge_compile.diagnostics.codes.formats import (
     MESH_STAYS_A_URI,
     NO_MIMIC_IN_SDF,
     NOT_IN_SDF,
-    RENAMED_IN_SDF,
-    RESERVED_IN_SDF,
     WEIGHTLESS_IN_SDF,
 )
-from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.sdf.check_names import check_names
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.losses import lost_parts
 from linkforge_compile.formats.sdf.meshes import MeshUris
-from linkforge_compile.formats.sdf.settings import settings_by_reference
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
-
-_NESTED = "::"
-"""Between the names of a nested model and of a part of it."""
 
 
 def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
@@ -44,25 +37,6 @@ def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
         yield from check_files(robot)
     for parts, name, source, path in lost_parts(robot, layout):
         yield NOT_IN_SDF.at(source, *path, parts=parts, name=name)
-
-
-def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
-    """Links, joints and frames of a model share their names; SDF has `world`, `__…__` and `…::…` for itself."""
-    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
-    for part in parts:
-        is_world = isinstance(part, Link) and layout.is_world(part.name)
-        if not is_world and (part.name == WORLD or (part.name.startswith("__") and part.name.endswith("__"))):
-            yield RESERVED_IN_SDF.at(part.source, name=part.name)
-    for sensor in robot.sensors:
-        if _NESTED in sensor.name:
-            yield RESERVED_IN_SDF.at(sensor.source, name=sensor.name)
-    for settings in settings_by_reference(robot).values():
-        for setting in settings:
-            if setting.tag != "plugin" and (name := next((one for one in setting.names if _NESTED in one), None)):
-                yield RESERVED_IN_SDF.at(setting.source, *setting.path, name=name)
-    for joint in robot.joints:
-        if (name := layout.joint_names[joint.name]) != joint.name:
-            yield RENAMED_IN_SDF.at(joint.source, joint=joint.name, name=name)
 
 
 def check_bodies(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:

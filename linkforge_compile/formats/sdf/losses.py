@@ -73,7 +73,8 @@ def _lost_settings(robot: Robot, layout: Layout) -> Iterator[Loss]:
         held, where = _held_settings(reference, robot, layout)
         for setting in settings:
             if setting.tag not in held:
-                parts = f"place for the setting '{setting.tag}'{where}"
+                is_held_elsewhere = setting.tag in OF_BODY | OF_JOINT
+                parts = f"place for the setting '{setting.tag}'{where if is_held_elsewhere else ''}"
                 yield parts, reference or robot.name, setting.source, setting.path
 
 

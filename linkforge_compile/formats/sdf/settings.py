@@ -149,7 +149,7 @@ def model_elements(settings: Settings) -> Xml:
 
 
 def link_elements(settings: Settings) -> Xml:
-    """Return the settings of a link that are elements of the link itself."""
+    """Return the settings of a link that are elements of the link itself, but for sensors."""
     by_tag = _by_tag(settings)
     flags = [_tag_for(tag, by_tag.get(name)) for name, tag in _LINK_FLAGS.items()]
     if off := by_tag.get("turnGravityOff"):
@@ -157,7 +157,7 @@ def link_elements(settings: Settings) -> Xml:
         flags.append(text("gravity", is_on, off.source, *off.path))
     damping = by_tag.get("dampingFactor")
     decay = parent("velocity_decay", _tag_for("linear", damping), _tag_for("angular", damping))
-    return Xml("".join([*flags, decay, _elements_with(LINK_ELEMENTS, settings)]))
+    return Xml("".join([*flags, decay, _elements_with(LINK_ELEMENTS - {"sensor"}, settings)]))
 
 
 def collision_elements(settings: Settings) -> Xml:
