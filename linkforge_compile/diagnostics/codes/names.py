@@ -27,7 +27,7 @@ LINK_AND_JOINT = Code(
 )
 SHARED_TOPIC = Code("LF4109", _W, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
 MODULES_DISAGREE = Code(
-    "LF4110",
+    "LF4111",
     _E,
     "modules '{first}' and '{second}' have different values of '{parameter}' in 'controller_manager'; "
     "write the right one in `controllers` of this file",
