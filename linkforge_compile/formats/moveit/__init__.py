@@ -46,6 +46,7 @@ class MoveIt(Format):
     description = "the configuration of MoveIt, with the URDF and the SRDF"
     keeps = "the URDF, the SRDF, kinematics solvers, limits of joints, controllers and initial positions"
     loses = "planning pipelines, sensors and launch files, for which MoveIt has defaults"
+    has_relative_paths = True
     options = Urdf.options
 
     def missing(self, robot: Robot) -> Diagnostic | None:
