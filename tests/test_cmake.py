@@ -14,7 +14,7 @@ import yaml
 
 from linkforge_compile import __version__
 from linkforge_compile.cli.targets import name_of
-from linkforge_compile.formats import FORMATS
+from linkforge_compile.formats import FORMATS, format_named
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -48,9 +48,9 @@ def linkforge(tmp_path_factory: pytest.TempPathFactory) -> Linkforge:
 class Workspace:
     """The package in a workspace as colcon lays one out, in a folder with a space, and its build."""
 
-    def __init__(self, folder: Path, generator: str, linkforge: Linkforge) -> None:
+    def __init__(self, folder: Path, generator: str, linkforge: Linkforge, package: Path = PACKAGE) -> None:
         self.source, self.build, self.prefix = (folder / name for name in ("src/pan_tilt", "build", "install"))
-        shutil.copytree(PACKAGE, self.source)
+        shutil.copytree(package, self.source)
         ament = folder / "ros" / "share" / "ament_cmake" / "cmake"
         ament.mkdir(parents=True)
         (ament / "ament_cmakeConfig.cmake").write_text(AMENT)
@@ -126,6 +126,16 @@ def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Wo
     assert controllers["head_controller"]["ros__parameters"]["joints"] == ["pan_turn", "tilt_turn"]
     assert {path.name for path in (share / "robots").iterdir()} == {"pan_tilt.robot.yaml", "servo.robot.yaml"}
     assert str(workspace.source) not in sim
+
+
+def test_the_package_for_moveit_installs_its_configuration(tmp_path: Path, linkforge: Linkforge):
+    workspace = Workspace(tmp_path, "Ninja", linkforge, ROOT / "examples" / "13_moveit_package")
+    workspace.configure()
+    assert workspace.make() == {"picker"}
+    workspace.install()
+    share = workspace.prefix / "share" / "picker_moveit_config"
+    installed = {path.relative_to(share).as_posix() for path in share.rglob("*") if path.is_file()}
+    assert installed == {*format_named("moveit").files, "launch/move_group.launch.py", "package.xml"}
 
 
 @by_both

@@ -45,12 +45,16 @@ class Targets(NamedTuple):
             path / file for name, path in written.items() for file in formats.format_named(name).files or ("",)
         )
 
-    @property
-    def folder(self) -> Path | None:
-        """The folder where relative paths in the documents start; None where that is not known."""
-        names = (name for name in self.formats if formats.format_named(name).has_relative_paths)
-        path = self.paths.get(next(names, ""))
-        return path.parent if path else None
+    def folders(self, installed_in: str | None) -> dict[str, Path]:
+        """Return the folders where relative paths in the documents start, by format, as far as they are known.
+
+        `installed_in` is the final folder of the first format with such paths; that of the others is not known then.
+        """
+        with_paths = [one for one in map(formats.format_named, self.formats) if one.has_relative_paths]
+        targets = {one.name: path for one in with_paths if (path := self.paths[one.name])}
+        if installed_in is not None:
+            targets = {one.name: Path(installed_in, "" if one.files else "NAME") for one in with_paths[:1]}
+        return {name: formats.format_named(name).folder_of_documents(path) for name, path in targets.items()}
 
     def without(self, names: Collection[str]) -> Targets:
         paths = {name: path for name, path in self.paths.items() if name not in names}

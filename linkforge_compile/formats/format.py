@@ -103,7 +103,7 @@ class Format(ABC):
     """Whether a URDF is among its documents, so that what Gazebo makes of a URDF is checked."""
 
     has_relative_paths: bool = False
-    """Whether relative paths of meshes in its documents start at the folder of the document."""
+    """Whether relative paths of meshes in its documents start at the folder of the first document."""
 
     options: tuple[Option, ...] = ()
 
@@ -119,6 +119,14 @@ class Format(ABC):
     def limits(self, robot: Robot, options: Options) -> Iterable[Diagnostic]:
         """Return what the format, or its common readers, cannot hold of a robot."""
         return ()
+
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        """Whether the relative paths of a robot's meshes are in its documents."""
+        return self.has_relative_paths
+
+    def folder_of_documents(self, target: Path) -> Path:
+        """Return the folder where relative paths start; `target` is its file, or the folder of its files."""
+        return (target / self.files[0] if self.files else target).parent
 
     def missing(self, robot: Robot) -> Diagnostic | None:
         """Return why the format has nothing to write for a robot; None where it has."""

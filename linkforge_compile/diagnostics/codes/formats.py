@@ -25,7 +25,7 @@ MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     _W,
     "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the {document}'s "
-    "folder; write 'package://NAME/PATH', or the {document} into '{back}'",
+    "folder; write 'package://NAME/PATH'{elsewhere}",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",

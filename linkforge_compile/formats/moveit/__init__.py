@@ -45,7 +45,11 @@ class MoveIt(Format):
     files = (*_WHOLE_FILES, *_OWN_FILES)
     description = "the configuration of MoveIt, with the URDF and the SRDF"
     keeps = "the URDF, the SRDF, kinematics solvers, limits of joints, controllers and initial positions"
-    loses = "planning pipelines, sensors and launch files, for which MoveIt has defaults"
+    loses = (
+        "planning pipelines, for which MoveIt has defaults; launch files, the configuration of RViz and sensors, which "
+        "are the package's own"
+    )
+    has_relative_paths = True
     has_urdf = True
     options = Urdf.options
 

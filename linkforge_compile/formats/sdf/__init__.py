@@ -51,6 +51,9 @@ class Sdf(TemplateFormat):
 
         yield from sdf_limits(robot, self._choices(options), lambda: self.text(robot, Rendering(options)))
 
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        return MESHES.value(options) != "file"
+
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.sdf.view import robot_view
 
