@@ -1,11 +1,6 @@
 """`linkforge collisions` as a command: its output, options and errors."""
 
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -188,28 +183,3 @@ def test_missing_libraries_are_named_with_the_way_to_install_them(arm: Path, mon
     done = linkforge("collisions", arm.name, cwd=arm.parent)
     assert done.returncode == 2
     assert "there is no Python package coal; run: pip install 'linkforge-compile[collisions]'" in done.stderr
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_ends_all_processes(arm: Path):
-    words = [sys.executable, "-m", "linkforge_compile", "collisions", arm.name, "--samples", "9000000", "--jobs", "2"]
-    with subprocess.Popen(words, cwd=arm.parent, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
-        assert process.stderr
-        assert "of 9,000,000 samples" in process.stderr.readline()
-        time.sleep(1)
-        os.killpg(process.pid, signal.SIGINT)
-        assert process.wait(timeout=60) == 130
-        assert "Traceback" not in process.stderr.read()
-    end = time.monotonic() + 20
-    while is_running(process.pid) and time.monotonic() < end:
-        time.sleep(0.1)
-    assert not is_running(process.pid)
-
-
-def is_running(group: int) -> bool:
-    """Whether a process of a group runs."""
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True
