@@ -76,8 +76,20 @@ def test_a_missing_mesh_is_an_error_at_its_place(tmp_path: Path):
     assert (done.returncode, done.stdout) == (1, "")
     assert (
         "robot.robot.yaml:4:28: error: the mesh 'package://hand_description/hand.stl' of a collision is not found, so "
-        "its link cannot be sampled; name the folder of its package with --package NAME=PATH [LF7701]" in done.stderr
+        "its link cannot be sampled; name the folder of its package with --package hand_description=PATH [LF7701]"
+        in done.stderr
     )
+
+
+def test_missing_meshes_of_a_package_are_one_error(tmp_path: Path):
+    meshes = ("arm/base.stl", "arm/upper.stl", "tool/tool.stl", "arm/hand.stl")
+    collisions = "".join(f"      - {{mesh: package://{mesh}}}\n" for mesh in meshes)
+    (tmp_path / "robot.robot.yaml").write_text(f"{HEAD}links:\n  arm:\n    collision:\n{collisions}", "utf-8")
+    done = linkforge("collisions", "robot.robot.yaml", cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.count("LF7701") == 2
+    assert "with --package arm=PATH; the same for 'package://arm/upper.stl' and 'package://arm/hand.stl'" in done.stderr
+    assert "with --package tool=PATH [LF7701]" in done.stderr
 
 
 @pytest.mark.parametrize(
