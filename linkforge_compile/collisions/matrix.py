@@ -11,7 +11,7 @@ from linkforge_compile.collisions.pairs import Names, Reason, comparable_pairs
 from linkforge_compile.collisions.sampling import ALWAYS_SHARE, Finding, Progress, SamplingSettings, find_reasons
 from linkforge_compile.collisions.scene import make_scene
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.srdf import CollisionPair
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.collisions import HIDDEN_COLLISIONS
 
