@@ -29,7 +29,7 @@ MAY_IMPORT = {
     "schema": "source diagnostics syntax units resources expressions",
     "core": "source units roots",
     "compilation": "diagnostics core",
-    "importers": "banner source diagnostics limits units syntax core compilation",
+    "importers": "banner source diagnostics limits units syntax core compilation roots paths",
     "load": "source diagnostics limits syntax schema importers roots paths compilation",
     "expand": "source diagnostics limits units syntax schema expressions importers load paths",
     "listing": "source diagnostics units syntax expressions importers load expand roots paths",
