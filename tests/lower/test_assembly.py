@@ -86,6 +86,7 @@ def test_prefixes_nest():
     assert names(robot.links) == ["torso", "left_upper", "left_hand_palm", "left_hand_finger"]
     assert names(robot.joints) == ["left_hand_grip", "left_hand_joint", "left_joint"]
     assert str(robot.link("left_hand_palm").source.trail[-1]) == "spec.yaml:3:11"
+    assert robot.link("left_hand_palm").source.modules == ("left", "hand")
 
 
 def test_a_module_without_parent_is_the_base():
