@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.geometry import IDENTITY, Vector3
-from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointLimits, JointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 """The types of joints that are one joint of MuJoCo, with the same name."""
 
-_AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
+_X, _Y, _Z = (AXES[name] for name in "xyz")
 
 
 def joint_elements(joint: Joint, joint_class: JointClass) -> tuple[Xml, ...]:
@@ -75,13 +75,13 @@ def _floating(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     if is_free_joint(joint):
         return (leaf_at("freejoint", joint.source, name=joint.name),)
     *slides, ball = part_names(joint)
-    axes = zip(slides, _AXES.values(), strict=True)
+    axes = zip(slides, (_X, _Y, _Z), strict=True)
     return (*(_part(joint, name, "slide", axis) for name, axis in axes), _part(joint, ball, "ball"))
 
 
 def _planar(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     """Return two slides in the plane and a hinge about its normal."""
-    normal = joint.axis or _AXES["z"]
+    normal = joint.axis or _Z
     first, second = _axes_of_plane(normal)
     x, y, yaw = part_names(joint)
     return (
@@ -94,7 +94,7 @@ def _planar(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
 def _axes_of_plane(normal: Vector3) -> tuple[Vector3, Vector3]:
     """Return two axes that make a right-handed frame with a normal; x and y for z."""
     x, y, z = normal
-    away = _AXES["x"] if abs(x) < 0.9 else _AXES["y"]
+    away = _X if abs(x) < 0.9 else _Y
     second = Vector3(y * away.z - z * away.y, z * away.x - x * away.z, x * away.y - y * away.x)
     first = Vector3(second.y * z - second.z * y, second.z * x - second.x * z, second.x * y - second.y * x)
     return first, second

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointType
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
 _TYPES = {JointType.CONTINUOUS: "revolute"}
-_X = Vector3(1.0, 0.0, 0.0)
 
 
 def joint_view(joint: Joint, layout: Layout, settings: Settings, sensors: Sequence[View], *, has_mimic: bool) -> View:
@@ -54,7 +52,7 @@ def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) 
         of_dynamics.append(text("friction", dynamics.friction, dynamics.source, "friction"))
     return parent(
         "axis",
-        text("xyz", joint.axis or _X, source, "axis"),
+        text("xyz", joint.axis or AXES["x"], source, "axis"),
         parent("limit", *of_limits),
         parent("dynamics", *of_dynamics),
         _mimic(joint, layout) if has_mimic else NOTHING,
