@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.long_forms import (
-    CHOICES,
+    excluded_keys,
     is_set,
     lists_objects,
     long_form,
@@ -107,10 +107,8 @@ class _Patcher:
         if missing and not any("$(" in name for name in base.entries):
             for change in missing:
                 self._report_missing(change, base, shape)
-        chosen = [name for name in CHOICES.get(shape.title, ()) if is_set(patch.get(name))]
-        for rival in CHOICES.get(shape.title, ()) if chosen else ():
-            if rival not in chosen:
-                entries.pop(rival, None)
+        for name in excluded_keys(patch, shape):
+            entries.pop(name, None)
         return YamlMap(entries, TracedSpan.overridden(base.span, tuple(changes)))
 
     def _patch_entry(self, entries: dict[str, YamlEntry], change: YamlEntry, shape: Shape) -> list[Change]:
