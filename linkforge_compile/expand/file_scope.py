@@ -49,6 +49,7 @@ from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
+from linkforge_compile.source.span import ModuleUse
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
 from linkforge_compile.units import number_text
@@ -94,9 +95,9 @@ class Use:
         return outer + self.entry.prefix if self.entry.is_named and not isinstance(outer, Fault) else FAULT
 
     @cached_property
-    def include_stack(self) -> tuple[Span, ...]:
+    def include_stack(self) -> tuple[ModuleUse, ...]:
         """The `use` of this file and of those around it, the innermost first."""
-        return tuple(use.bound.use for use in self.chain if use.bound.use)
+        return tuple(ModuleUse.of(use.bound.use, use.entry.name) for use in self.chain if use.bound.use and use.entry)
 
     def writers(self, packages: Mapping[str, Path]) -> Writers:
         """Return the files that may have written a path here: its own, which know these packages, and those around."""

@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.load.locations import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.span import Located
+from linkforge_compile.source.span import Located, ModuleUse
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
@@ -52,7 +52,7 @@ class Instance:
     entry: SourceRef | None = None
     prefix: str = ""
     mesh_bases: Mapping[SourceFile, str] = field(default_factory=dict)
-    include_stack: tuple[Span, ...] = ()
+    include_stack: tuple[ModuleUse, ...] = ()
     modules: tuple[Instance, ...] = ()
     references: tuple[NameReference, ...] = ()
     find_mesh: FindMesh = no_mesh

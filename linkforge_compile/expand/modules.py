@@ -24,7 +24,8 @@ from linkforge_compile.expand.override import Override, apply_patch, report_empt
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.load.loader import SpecFile
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import SourceRef
+from linkforge_compile.source.span import ModuleUse
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 
@@ -45,7 +46,7 @@ class ModuleEntry:
     overrides: tuple[Override, ...] = ()
 
 
-def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[Span, ...]) -> Iterator[ModuleEntry]:
+def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[ModuleUse, ...]) -> Iterator[ModuleEntry]:
     """Yield the entries of `modules`, repeated as they say; one without a name for an unreadable section."""
     section = spec.tree.get("modules")
     shape = shapes().under("modules")
@@ -60,7 +61,7 @@ def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[Span
 
 
 def _read_entry(
-    entry: YamlEntry, evaluator: Evaluator, folder: Path | None, include_stack: tuple[Span, ...]
+    entry: YamlEntry, evaluator: Evaluator, folder: Path | None, include_stack: tuple[ModuleUse, ...]
 ) -> ModuleEntry:
     """Read an entry of a file in `folder`; faulty parts are reported and left out."""
     written = entry.value

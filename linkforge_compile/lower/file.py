@@ -22,7 +22,8 @@ from linkforge_compile.lower.mesh_solids import MeshReader
 from linkforge_compile.lower.mount import ModuleJoint, lower_mounts
 from linkforge_compile.lower.object_context import has_fault, report_duplicate
 from linkforge_compile.lower.shapes import FileScope, lower_materials
-from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source import SourceFile, SourceRef
+from linkforge_compile.source.span import ModuleUse
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
 
@@ -47,7 +48,11 @@ class LoweredFile:
 
 
 def lower_file(
-    tree: YamlMap, mesh_bases: Mapping[SourceFile, str], trail: tuple[Span, ...], sink: Diagnostics, meshes: MeshReader
+    tree: YamlMap,
+    mesh_bases: Mapping[SourceFile, str],
+    trail: tuple[ModuleUse, ...],
+    sink: Diagnostics,
+    meshes: MeshReader,
 ) -> LoweredFile:
     """Lower the sections of a file; report names that are defined twice at the second definition."""
     file = Fields(tree, "robot", sink, trail)

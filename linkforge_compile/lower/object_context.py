@@ -12,7 +12,7 @@ from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME
 from linkforge_compile.lower.numbers import describe_node
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Step, aliases_on, join_links, overrides_of, uses_in
-from linkforge_compile.source.span import Located
+from linkforge_compile.source.span import Located, ModuleUse
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
 
@@ -57,7 +57,7 @@ class ObjectContext:
         node: YamlMap,
         owner: str,
         sink: Diagnostics,
-        trail: tuple[Span, ...] = (),
+        trail: tuple[ModuleUse, ...] = (),
         key: Located | None = None,
         path: str = "",
         outer: ObjectContext | None = None,

@@ -245,6 +245,21 @@ class TracedSpan(Span):
         return Span, tuple(self)
 
 
+class ModuleUse(Span):
+    """The `use` that brings in a file, and the name of its module: those that a `for` makes have the same place."""
+
+    module: str
+
+    @classmethod
+    def of(cls, place: Span, module: str) -> ModuleUse:
+        made = cls(*place)
+        made.module = module
+        return made
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return ModuleUse.of, (Span(*self), self.module)
+
+
 def span_of(place: Span | SourceFile, begin: int, end: int) -> Span:
     """Return the place itself if it is a span, else the span between two indexes of the file."""
     return place if isinstance(place, Span) else place.between(begin, end)
@@ -289,7 +304,12 @@ class SourceRef:
 
     node: Located
     key: Located | None = None
-    trail: tuple[Span, ...] = ()
+    trail: tuple[ModuleUse, ...] = ()
+
+    @property
+    def modules(self) -> tuple[str, ...]:
+        """The names of the modules that the object is in, the outermost first; none in the compiled file."""
+        return tuple(use.module for use in reversed(self.trail))
 
     @property
     def span(self) -> Span:

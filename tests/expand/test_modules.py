@@ -81,6 +81,8 @@ def test_an_instance_has_its_name_prefix_entry_and_include_stack(tmp_path, sink)
         ("robot.robot.yaml", 5),
     ]
     assert hand.entry.trail == left.include_stack
+    # The modules of one `for` have the same `use`.
+    assert [use.module for use in hand.include_stack] == ["hand", "left_arm"]
 
 
 def test_a_fault_of_a_module_has_a_note_of_its_use(tmp_path, sink):

@@ -116,6 +116,56 @@ def test_only_a_chain_that_is_no_tool_has_a_solver_by_default():
     assert list(written(f"{ROBOT}semantic: {{groups: {{{groups}}}, {effector}}}\n", "kinematics.yaml")) == ["arm"]
 
 
+ARM = """
+defaults: {joint: {axis: y, limits: {lower: 0, upper: 1, effort: 1, velocity: 1, acceleration: 1}}}
+links:
+  world:
+  base: &link {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+  upper: *link
+  lower: *link
+  hand: *link
+  eye: *link
+  one: *link
+  other: *link
+joints:
+  drive: {type: planar, parent: world, child: base}
+  shoulder: {type: revolute, parent: base, child: upper}
+  elbow: {type: revolute, parent: upper, child: lower}
+  wrist: {type: fixed, parent: lower, child: hand}
+  camera: {type: fixed, parent: lower, child: eye}
+  thumb: {type: revolute, parent: hand, child: one}
+  finger: {type: revolute, parent: hand, child: other, mimic: {joint: thumb}}
+semantic:
+  virtual_joints:
+    fixed_to_map: {type: fixed, parent_frame: map, child_link: world}
+    floating: {type: floating, parent_frame: odom, child_link: world}
+  groups:
+    upper_arm: {joints: [shoulder, elbow]}
+    thumb: {joints: [wrist, thumb]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("group", "is_chain"),
+    [
+        ("joints: [shoulder, elbow]", True),
+        ("joints: [shoulder, elbow, thumb]", True),
+        ("chain: {base_link: base, tip_link: one}", True),
+        ("subgroups: [thumb, upper_arm]", True),
+        ("joints: [shoulder, thumb]", False),
+        ("joints: [thumb, finger]", False),
+        ("joints: [elbow, wrist, camera]", False),
+        ("chain: {base_link: world, tip_link: hand}", False),
+        ("joints: [floating, shoulder]", False),
+        ("joints: [wrist]", False),
+    ],
+)
+def test_the_default_solver_is_for_what_moveit_takes_for_a_chain(group: str, is_chain: bool):
+    """Members follow each other, those that are fixed or mimic another one as well, and have at most one position."""
+    text = f"{ARM}    group: {{{group}}}\n"
+    assert ("group" in written(text, "kinematics.yaml")) is is_chain
+
+
 def test_a_robot_without_chains_has_no_solvers():
     text = f"{ROBOT}semantic: {{groups: {{wheels: {{joints: [left, right]}}}}}}\n"
     assert written(text, "kinematics.yaml") == {}
@@ -190,3 +240,49 @@ def test_each_file_has_a_source_map():
     place = map_.at(text.splitlines().index("arm:") + 1)
     assert place is not None
     assert place.span.text == "arm"
+
+
+NEIGHBORS = """\
+links:
+  base: {collision: {sphere: 0.1}}
+  arm: {collision: {sphere: 0.1}}
+  flange:
+  hand: {collision: {sphere: 0.1}}
+  ball: {collision: {sphere: 0.1}}
+joints:
+  turn: {type: continuous, parent: base, child: arm, axis: z}
+  tip: {type: fixed, parent: arm, child: flange}
+  tool: {type: fixed, parent: flange, child: hand}
+  throw: {type: floating, parent: base, child: ball}
+semantic:
+  groups: {arm: {joints: [turn]}}
+"""
+
+
+def undecided_pairs(semantic: str) -> list[str]:
+    limits = MOVEIT.limits(robot_of(NEIGHBORS + semantic), {})
+    return [one.subject for one in limits if one.code.id == "LF7704"]
+
+
+def test_neighbors_without_a_pair_are_reported_at_the_section():
+    assert undecided_pairs("") == ["base and arm", "arm and hand"]
+    compilation = compile_text(
+        f"linkforge: 1\nname: robot\n{NEIGHBORS}  disabled_collisions: {{hand: {{ball: Never}}}}\n", formats=["moveit"]
+    )
+    assert [str(one) for one in compilation.diagnostics if one.code.id == "LF7704"] == [
+        "<text>:16:24: warning: MoveIt checks 'base and arm' for collisions, although a joint connects them; list "
+        "adjacent links in `disabled_collisions`, as 'linkforge collisions SPEC --write' does; the same for 'arm and "
+        "hand' [LF7704]"
+    ]
+
+
+@pytest.mark.parametrize(
+    "semantic",
+    [
+        "disabled_collisions: {arm: {base: Adjacent, hand: Adjacent}}",
+        "enabled_collisions: {base: {arm: }, arm: {hand: }}",
+        "no_default_collision_links: [arm]",
+    ],
+)
+def test_neighbors_whose_check_is_decided_are_not_reported(semantic: str):
+    assert undecided_pairs(f"  {semantic}\n") == []

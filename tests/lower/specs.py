@@ -8,7 +8,8 @@ from linkforge_compile.core import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import Lowered, lower
-from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source import SourceFile, SourceRef
+from linkforge_compile.source.span import ModuleUse
 from linkforge_compile.syntax import YamlMap, read
 from tests.yaml_case import Finding, expected
 
@@ -27,7 +28,7 @@ class Spec:
         order: Iterator[int],
         name: str = "spec",
         entry: SourceRef | None = None,
-        trail: tuple[Span, ...] = (),
+        trail: tuple[ModuleUse, ...] = (),
     ) -> Instance:
         tree = read(SourceFile(f"{name}.yaml", self.text, order=next(order)), sink)
         assert tree is not None, "the spec of a test is YAML"
@@ -37,7 +38,7 @@ class Spec:
         for key, spec in self.modules.items():
             use = uses[key]
             ref = SourceRef(use.value, use.key, trail)
-            inner = (use.key.span, *trail)
+            inner = (ModuleUse.of(use.key.span, key), *trail)
             if spec is None:
                 modules.append(Instance(key, None, ref, f"{key}_", include_stack=inner))
             else:
