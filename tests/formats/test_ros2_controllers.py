@@ -79,7 +79,8 @@ ros2_control:
       right: *wheel
     sensors: {{imu: {{state_interfaces: [orientation.x]}}, wrench: {{state_interfaces: [force.x]}}}}
 """
-ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}}}\n"
+ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 
 
 def robot_of(text: str):
@@ -242,10 +243,107 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
             "LF7605 a position_controllers/JointGroupPositionController has no 'state_interfaces'; that of 'g' is left "
             "out",
         ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, group: fixed}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `joints`; no joint of group 'fixed' "
+            "has a command interface in `ros2_control`",
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow, left]}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `command_interfaces`; its joints have "
+            "none in common",
+        ),
     ],
 )
 def test_what_a_class_needs_or_lacks_is_reported(controllers: str, message: str):
     assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}}}\n") == [message]
+
+
+MANAGER_AND = "controller_manager: {{parameters: {{{}}}}}, o: {{type: a/B}}"
+TRAJECTORY_WITH = (
+    "t: {{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+    "parameters: {{{}}}}}, o: {{type: a/B}}"
+)
+OF_TRAJECTORIES = f"a {TRAJECTORY}"
+
+
+@pytest.mark.parametrize(
+    ("controllers", "parameters", "message"),
+    [
+        (
+            MANAGER_AND,
+            "update_rate: 500 Hz",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found '500 Hz'",
+        ),
+        (
+            MANAGER_AND,
+            "update_rate: 500.0",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found 500.0",
+        ),
+        (
+            MANAGER_AND,
+            "update_rates: 500",
+            "LF7611 the controller manager has no parameter 'update_rates'; did you mean 'update_rate'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_time: fast}",
+            f"LF7612 'constraints.goal_time' of {OF_TRAJECTORIES} accepts a number, found 'fast'",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {stopped_velocity_tolerance: true}",
+            f"LF7612 'constraints.stopped_velocity_tolerance' of {OF_TRAJECTORIES} accepts a number, found true",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: 0.5",
+            f"LF7612 'constraints' of {OF_TRAJECTORIES} accepts a map of parameters, found 0.5",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_tme: 1}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'goal_tme' in 'constraints'; did you mean 'goal_time'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {shouldr: {goal: 1}}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'shouldr' in 'constraints'; did you mean 'shoulder'?",
+        ),
+    ],
+)
+def test_parameters_that_a_class_does_not_declare_are_reported(controllers: str, parameters: str, message: str):
+    assert reported(f"{ROBOT}controllers: {{{controllers.format(parameters)}}}\n") == [message]
+
+
+def test_declared_parameters_have_the_types_that_their_class_declares():
+    text = f"""{ROBOT}
+controllers:
+  controller_manager:
+    parameters:
+      update_rate: 500
+      diagnostics: {{threshold: {{controllers: {{periodicity: {{mean_error: {{warn: 5}}}}}}}}}}
+      arm: {{fallback_controllers: [o]}}
+      loaded_later: {{type: a/B, params_file: later.yaml}}
+  arm:
+    type: joint_trajectory_controller/JointTrajectoryController
+    joints: [shoulder]
+    parameters:
+      update_rate: 50
+      constraints.goal_time: 1
+      constraints: {{shoulder: {{goal: 10 mm, trajectory: 1}}}}
+      gains: {{shoulder: {{p: 100, antiwindup_strategy: none, angle_wraparound: true}}}}
+  o: {{type: a/B, parameters: {{any: 1}}}}
+"""
+    assert reported(text) == []
+    written = controller("arm", text)
+    assert written["update_rate"] == 50
+    assert type(written["update_rate"]) is int
+    assert type(written["constraints.goal_time"]) is float
+    assert written["constraints"] == {"shoulder": {"goal": 0.01, "trajectory": 1.0}}
+    assert type(written["gains"]["shoulder"]["p"]) is float
+    manager = controller("controller_manager", text)
+    assert type(manager["diagnostics"]["threshold"]["controllers"]["periodicity"]["mean_error"]["warn"]) is float
 
 
 def test_a_joint_without_command_interface_is_reported():
@@ -255,6 +353,56 @@ def test_a_joint_without_command_interface_is_reported():
     assert reported(text) == [
         "LF7606 controller 't' does not start: joint 'elbow' has no command interface in `ros2_control`"
     ]
+
+
+@pytest.mark.parametrize(
+    ("controllers", "messages"),
+    [
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+            "command_interfaces: [velocity], state_interfaces: [position, effrt]}",
+            [
+                "LF7606 controller 't' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`",
+                "LF7606 controller 't' does not start: joint 'shoulder' has no state interface 'effrt' in "
+                "`ros2_control`; did you mean 'effort'?; the same for 'elbow'",
+            ],
+        ),
+        (
+            "g: {type: effort_controllers/GripperActionController, joints: [elbow]}",
+            ["LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'effort' in `ros2_control`"],
+        ),
+        (
+            "g: {type: velocity_controllers/JointGroupVelocityController, group: arm}",
+            [
+                "LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`"
+            ],
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow], "
+            "command_interfaces: [effort], parameters: {command_joints: [pid/elbow], gains: {elbow: {p: 1}}}}",
+            [],
+        ),
+    ],
+)
+def test_interfaces_that_joints_do_not_have_are_reported(controllers: str, messages: list[str]):
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}, o: {{type: a/B}}}}\n") == messages
+
+
+@pytest.mark.parametrize(
+    ("group", "controllers", "code"),
+    [
+        ("base_link: base, tip_link: lower", "group: amr", "LF4104"),
+        ("base_link: base, tip_link: lower", "joints: [elbo]", "LF4103"),
+        ("base_link: base, tip_link: lowr", "group: arm", "LF4102"),
+    ],
+)
+def test_what_follows_from_a_wrong_name_is_not_reported(group: str, controllers: str, code: str):
+    trajectory = f"{{type: joint_trajectory_controller/JointTrajectoryController, {controllers}}}"
+    text = f"{ROBOT}semantic: {{groups: {{arm: {{chain: {{{group}}}}}}}}}\ncontrollers: {{t: {trajectory}}}\n"
+    compilation = compile_text(f"linkforge: 1\nname: robot\n{text}", formats=("moveit",))
+    assert {one.code.id for one in compilation.diagnostics} - {"LF7601"} == {code}
 
 
 def test_a_robot_without_hardware_has_no_controllers():

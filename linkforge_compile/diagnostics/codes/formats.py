@@ -229,18 +229,21 @@ NOT_OF_CONTROLLER = Code(
 NOT_OF_HARDWARE = Code(
     "LF7606",
     _W,
-    "controller '{controller}' does not start: joint '{joint}' has no command interface in `ros2_control`",
+    "controller '{controller}' does not start: joint '{joint}' has no {what} in `ros2_control`",
     subject="joint",
-    grouped_by=("controller",),
+    grouped_by=("controller", "what"),
 )
 NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
 NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
 NOTHING_EXECUTES = Code(
     "LF7609",
     _W,
-    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
+    "MoveIt executes no motion of group '{group}': {reason}",
     subject="group",
+    grouped_by=("reason",),
 )
+UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
+WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
