@@ -192,7 +192,7 @@ def test_a_mimic_joint_needs_version_1_11():
         "LF7506 SDF 1.9 has no mimic joints, so 'follow' moves by itself; leave out `--sdf 1.9`, or choose 1.11"
     ]
     assert reported(TWO + MIMIC) == [
-        "LF7512 DART, Gazebo's default engine, ignores mimic joints, so 'follow' moves by itself; "
+        "LF7514 DART, Gazebo's default engine, ignores mimic joints, so 'follow' moves by itself; "
         "choose bullet-featherstone, or have gz_ros2_control move it"
     ]
 

@@ -211,7 +211,7 @@ NO_COLLISION_IN_SDF = Code(
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
 )
 MIMIC_OF_ENGINE = Code(
-    "LF7512",
+    "LF7514",
     Severity.NOTE,
     "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves by itself; choose bullet-featherstone, or "
     "have gz_ros2_control move it",
