@@ -73,6 +73,7 @@ WITHOUT_A_CASE = {
     "LF7509": "formats/test_sdf_names.py",
     "LF7510": "formats/test_sdf_names.py",
     "LF7511": "formats/test_sdf_names.py",
+    "LF7514": "formats/test_sdf.py",
     "LF7601": "formats/test_joint_limits.py",
     "LF7602": "formats/test_joint_limits.py",
     "LF7603": "formats/test_ros2_controllers.py",

@@ -190,8 +190,12 @@ FREE_IN_SDF = Code(
     "SDF has no planar joints, so '{joint}' is left out and link '{link}' moves freely",
     subject="joint",
 )
-MESH_STAYS_A_URI = Code(
-    "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
+STAYS_A_URI = Code(
+    "LF7508",
+    _W,
+    "{what} '{file}' is not found on this machine, so its URI stays in the SDF",
+    subject="file",
+    grouped_by=("what",),
 )
 RENAMED_SHAPE_IN_SDF = Code(
     "LF7509",
@@ -205,6 +209,13 @@ NO_COLLISION_IN_SDF = Code(
     "LF7511",
     _W,
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
+)
+MIMIC_OF_ENGINE = Code(
+    "LF7514",
+    Severity.NOTE,
+    "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves by itself; choose bullet-featherstone, or "
+    "have gz_ros2_control move it",
+    subject="joint",
 )
 
 # LF76xx: control and planning

@@ -10,13 +10,11 @@ from linkforge_compile.core.models.joint import AXES, Joint, JointLimits, JointT
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-
-SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
-"""The types of joints that are one joint of MuJoCo, with the same name."""
 
 _X, _Y, _Z = (AXES[name] for name in "xyz")
 
@@ -152,11 +150,3 @@ def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
         coefficients = (limits.lower or 0.0, 0, 0, 0, 0)
         return (leaf_at("joint", limits.source, joint1=joint.name, polycoef=coefficients),)
     return ()
-
-
-def leader_of(joint: Joint, robot: Robot) -> Joint | None:
-    """Return the joint that a joint mimics; None where one of them is not one joint of MuJoCo, as for LF5502."""
-    if joint.mimic is None or joint.type not in SINGLE or not robot.has_joint(joint.mimic.joint):
-        return None
-    leader = robot.joints[joint.mimic.joint]
-    return leader if leader.type in SINGLE else None

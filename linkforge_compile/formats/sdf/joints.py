@@ -11,6 +11,7 @@ from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
 from linkforge_compile.formats.sdf.layout import MODEL, Layout
 from linkforge_compile.formats.sdf.settings import Settings, joint_physics, spring_elements
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
@@ -61,7 +62,7 @@ def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) 
 
 def _mimic(joint: Joint, layout: Layout) -> Xml:
     mimic = joint.mimic
-    if mimic is None or not layout.robot.has_joint(mimic.joint):
+    if mimic is None or leader_of(joint, layout.robot) is None:
         return NOTHING
     source = mimic.source
     inner = (
