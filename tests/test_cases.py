@@ -79,6 +79,8 @@ WITHOUT_A_CASE = {
     "LF7607": "formats/test_ros2_controllers.py",
     "LF7608": "formats/test_moveit.py",
     "LF7609": "formats/test_moveit.py",
+    "LF7611": "formats/test_ros2_controllers.py",
+    "LF7612": "formats/test_ros2_controllers.py",
     "LF7701": "collisions/test_command.py",
     "LF7702": "collisions/test_command.py",
     "LF7703": "collisions/test_command.py",

@@ -248,6 +248,93 @@ def test_what_a_class_needs_or_lacks_is_reported(controllers: str, message: str)
     assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}}}\n") == [message]
 
 
+MANAGER_AND = "controller_manager: {{parameters: {{{}}}}}, o: {{type: a/B}}"
+TRAJECTORY_WITH = (
+    "t: {{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+    "parameters: {{{}}}}}, o: {{type: a/B}}"
+)
+OF_TRAJECTORIES = "a joint_trajectory_controller/JointTrajectoryController"
+
+
+@pytest.mark.parametrize(
+    ("controllers", "parameters", "message"),
+    [
+        (
+            MANAGER_AND,
+            "update_rate: 500 Hz",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found '500 Hz'",
+        ),
+        (
+            MANAGER_AND,
+            "update_rate: 500.0",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found 500.0",
+        ),
+        (
+            MANAGER_AND,
+            "update_rates: 500",
+            "LF7611 the controller manager has no parameter 'update_rates'; did you mean 'update_rate'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_time: fast}",
+            f"LF7612 'constraints.goal_time' of {OF_TRAJECTORIES} accepts a number, found 'fast'",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {stopped_velocity_tolerance: true}",
+            f"LF7612 'constraints.stopped_velocity_tolerance' of {OF_TRAJECTORIES} accepts a number, found true",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: 0.5",
+            f"LF7612 'constraints' of {OF_TRAJECTORIES} accepts a map of parameters, found 0.5",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_tme: 1}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'goal_tme' in 'constraints'; did you mean 'goal_time'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {shouldr: {goal: 1}}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'shouldr' in 'constraints'; did you mean 'shoulder'?",
+        ),
+    ],
+)
+def test_parameters_that_a_class_does_not_declare_are_reported(controllers: str, parameters: str, message: str):
+    assert reported(f"{ROBOT}controllers: {{{controllers.format(parameters)}}}\n") == [message]
+
+
+def test_declared_parameters_have_the_types_that_their_class_declares():
+    text = f"""{ROBOT}
+controllers:
+  controller_manager:
+    parameters:
+      update_rate: 500
+      diagnostics: {{threshold: {{controllers: {{periodicity: {{mean_error: {{warn: 5}}}}}}}}}}
+      arm: {{fallback_controllers: [o]}}
+      loaded_later: {{type: a/B, params_file: later.yaml}}
+  arm:
+    type: joint_trajectory_controller/JointTrajectoryController
+    joints: [shoulder]
+    parameters:
+      update_rate: 50
+      constraints.goal_time: 1
+      constraints: {{shoulder: {{goal: 10 mm, trajectory: 1}}}}
+      gains: {{shoulder: {{p: 100, antiwindup_strategy: none, angle_wraparound: true}}}}
+  o: {{type: a/B, parameters: {{any: 1}}}}
+"""
+    assert reported(text) == []
+    written = controller("arm", text)
+    assert written["update_rate"] == 50
+    assert type(written["update_rate"]) is int
+    assert type(written["constraints.goal_time"]) is float
+    assert written["constraints"] == {"shoulder": {"goal": 0.01, "trajectory": 1.0}}
+    assert type(written["gains"]["shoulder"]["p"]) is float
+    manager = controller("controller_manager", text)
+    assert type(manager["diagnostics"]["threshold"]["controllers"]["periodicity"]["mean_error"]["warn"]) is float
+
+
 def test_a_joint_without_command_interface_is_reported():
     text = ROBOT.replace("elbow: {command_interfaces: [position], ", "elbow: {")
     trajectory = "{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow]}"

@@ -228,6 +228,8 @@ NOTHING_EXECUTES = Code(
     "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
     subject="group",
 )
+UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
+WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")

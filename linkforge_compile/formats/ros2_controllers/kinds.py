@@ -14,8 +14,13 @@ GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 OLD_GRIPPER = "position_controllers/GripperActionController"
 EFFORT_GRIPPER = "effort_controllers/GripperActionController"
 FORWARD = "forward_command_controller/ForwardCommandController"
+POSITION_GROUP = "position_controllers/JointGroupPositionController"
+VELOCITY_GROUP = "velocity_controllers/JointGroupVelocityController"
+EFFORT_GROUP = "effort_controllers/JointGroupEffortController"
 STATES = "joint_state_broadcaster/JointStateBroadcaster"
 DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
+IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
+FORCE_TORQUE = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
 
 GRIPPERS = (GRIPPER, OLD_GRIPPER, EFFORT_GRIPPER)
 
@@ -34,14 +39,12 @@ class Kind(NamedTuple):
     """A class of controllers.
 
     `parameters` are the names of its parameters by the fields of Controller; those in `single` have one name and no
-    list. It needs those in `required`, other parameters too. `whole` are its parameters that are whole numbers, None
-    where that is not known.
+    list. It needs those in `required`, other parameters too. All of its parameters are in `parameters.py`.
     """
 
     parameters: Mapping[str, str] = MappingProxyType(_ANY)
     single: frozenset[str] = frozenset()
     required: tuple[str, ...] = ()
-    whole: frozenset[str] | None = frozenset()
 
 
 def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] = (), **renamed: str) -> Kind:
@@ -57,20 +60,20 @@ KINDS: Mapping[str, Kind] = {
     OLD_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
     EFFORT_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
     FORWARD: _kind("joints", single=("command_interfaces",), command_interfaces="interface_name"),
-    "position_controllers/JointGroupPositionController": _GROUP,
-    "velocity_controllers/JointGroupVelocityController": _GROUP,
-    "effort_controllers/JointGroupEffortController": _GROUP,
+    POSITION_GROUP: _GROUP,
+    VELOCITY_GROUP: _GROUP,
+    EFFORT_GROUP: _GROUP,
     STATES: Kind({"joints": "joints", "state_interfaces": "interfaces"}),
     DIFF_DRIVE: _kind(
         "left_wheels",
         "right_wheels",
         required=("left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"),
-    )._replace(whole=frozenset({"velocity_rolling_window_size"})),
-    "imu_sensor_broadcaster/IMUSensorBroadcaster": _SENSOR,
-    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": _SENSOR._replace(whole=None),
+    ),
+    IMU: _SENSOR,
+    FORCE_TORQUE: _SENSOR,
 }
 
-ANY_KIND = Kind(whole=None)
+ANY_KIND = Kind()
 """What any other class is given: all that a controller has, under the usual names."""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
@@ -12,9 +12,13 @@ from linkforge_compile.diagnostics.codes.formats import (
     NO_HARDWARE,
     NOT_OF_CONTROLLER,
     NOT_OF_HARDWARE,
+    UNKNOWN_PARAMETER,
+    WRONG_PARAMETER,
 )
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
 from linkforge_compile.formats.ros2_controllers.kinds import GRIPPERS, KINDS, TRAJECTORY, kind_of
+from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
+from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
@@ -35,8 +39,12 @@ def missing_hardware(robot: Robot) -> Diagnostic | None:
 def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     """A controller has what its class needs and nothing else; each commanded joint has a controller."""
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
+    if manager := robot.controllers.get(MANAGER):
+        loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
+        yield from _check_types(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
     for controller in controllers:
         yield from _check_parameters(controller)
+        yield from _check_types(controller, controller.type or "", _joints(controller))
         if controller.type in {TRAJECTORY, *GRIPPERS}:
             for place, name in enumerate(controller.joints):
                 if name not in hardware and robot.has_joint(name):
@@ -61,3 +69,34 @@ def _check_parameters(controller: Controller) -> Iterator[Diagnostic]:
         for field in _FIELDS:
             if field not in kind.parameters and getattr(controller, field):
                 yield NOT_OF_CONTROLLER.at(controller.source, field, controller=name, type=controller.type, field=field)
+
+
+def _check_types(controller: Controller, declared_by: str, named: Iterable[str]) -> Iterator[Diagnostic]:
+    """Report the parameters that a class does not declare, or declares with another type."""
+    owner = "the controller manager" if declared_by == MANAGER else f"a {declared_by}"
+    declared = PARAMETERS.get(declared_by)
+    misfits = find_misfits(controller.parameters, declared, named) if declared is not None else ()
+    for path, expected, value, near in misfits:
+        *outer, name = path
+        if expected is None:
+            inside = f" in '{'.'.join(outer)}'" if outer else ""
+            place = ("parameters", *outer, Key(name))
+            yield UNKNOWN_PARAMETER.at(controller.source, *place, name=name, owner=owner, inside=inside, near=near)
+        else:
+            name, found = ".".join(path), _shown(value)
+            place = ("parameters", *path)
+            yield WRONG_PARAMETER.at(controller.source, *place, name=name, owner=owner, expected=expected, found=found)
+
+
+def _joints(controller: Controller) -> tuple[str, ...]:
+    """Return the joints of a controller, also those that are a parameter."""
+    stated = controller.parameters.get("joints")
+    return (*controller.joints, *map(str, stated if isinstance(stated, list | tuple) else ()))
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, str):
+        return f"'{value}'"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return str(value) if isinstance(value, int | float) else "a map" if isinstance(value, Mapping) else "a list"
