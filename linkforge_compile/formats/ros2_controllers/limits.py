@@ -18,6 +18,7 @@ from linkforge_compile.diagnostics.codes.formats import (
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
 from linkforge_compile.formats.ros2_controllers.kinds import GRIPPERS, KINDS, TRAJECTORY, kind_of
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
+from linkforge_compile.formats.ros2_controllers.refused import check_refused
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def missing_hardware(robot: Robot) -> Diagnostic | None:
 def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     """A controller has what its class needs and nothing else; each commanded joint has a controller."""
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
+    yield from check_refused(robot, controllers)
     if manager := robot.controllers.get(MANAGER):
         loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
         yield from _check_types(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
