@@ -73,6 +73,27 @@ def _all_joints_by_group(robot: Robot) -> dict[str, tuple[Joint, ...]]:
     return by_group
 
 
+def faulty_groups(robot: Robot) -> frozenset[str]:
+    """Return the planning groups that name a part which the robot does not have; checks have reported the name."""
+    groups = {group.name: group for group in robot.semantic.groups} if robot.has_semantic else {}
+    links = frozenset(link.name for link in robot.links)
+
+    def is_faulty(group: PlanningGroup) -> bool:
+        ends = (link for chain in group.chains for link in (chain.base_link, chain.tip_link))
+        return not (
+            links.issuperset((*group.links, *ends))
+            and all(map(robot.has_joint, group.joints))
+            and groups.keys() >= set(group.subgroups)
+        )
+
+    faulty = {name for name, group in groups.items() if is_faulty(group)}
+    found = 0
+    while faulty and found < len(faulty):
+        found = len(faulty)
+        faulty.update(name for name, group in groups.items() if not faulty.isdisjoint(group.subgroups))
+    return frozenset(faulty)
+
+
 def _names(
     name: str, groups: Mapping[str, PlanningGroup], parents: Mapping[str, Joint], around: tuple[str, ...]
 ) -> Iterator[str]:

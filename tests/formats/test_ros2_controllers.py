@@ -79,7 +79,8 @@ ros2_control:
       right: *wheel
     sensors: {{imu: {{state_interfaces: [orientation.x]}}, wrench: {{state_interfaces: [force.x]}}}}
 """
-ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}}}\n"
+ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 
 
 def robot_of(text: str):
@@ -242,6 +243,16 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
             "LF7605 a position_controllers/JointGroupPositionController has no 'state_interfaces'; that of 'g' is left "
             "out",
         ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, group: fixed}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `joints`; no joint of group 'fixed' "
+            "has a command interface in `ros2_control`",
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow, left]}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `command_interfaces`; its joints have "
+            "none in common",
+        ),
     ],
 )
 def test_what_a_class_needs_or_lacks_is_reported(controllers: str, message: str):
@@ -253,7 +264,7 @@ TRAJECTORY_WITH = (
     "t: {{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
     "parameters: {{{}}}}}, o: {{type: a/B}}"
 )
-OF_TRAJECTORIES = "a joint_trajectory_controller/JointTrajectoryController"
+OF_TRAJECTORIES = f"a {TRAJECTORY}"
 
 
 @pytest.mark.parametrize(
@@ -403,6 +414,56 @@ def test_a_joint_without_command_interface_is_reported():
     assert reported(text) == [
         "LF7606 controller 't' does not start: joint 'elbow' has no command interface in `ros2_control`"
     ]
+
+
+@pytest.mark.parametrize(
+    ("controllers", "messages"),
+    [
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+            "command_interfaces: [velocity], state_interfaces: [position, effrt]}",
+            [
+                "LF7606 controller 't' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`",
+                "LF7606 controller 't' does not start: joint 'shoulder' has no state interface 'effrt' in "
+                "`ros2_control`; did you mean 'effort'?; the same for 'elbow'",
+            ],
+        ),
+        (
+            "g: {type: effort_controllers/GripperActionController, joints: [elbow]}",
+            ["LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'effort' in `ros2_control`"],
+        ),
+        (
+            "g: {type: velocity_controllers/JointGroupVelocityController, group: arm}",
+            [
+                "LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`"
+            ],
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow], "
+            "command_interfaces: [effort], parameters: {command_joints: [pid/elbow], gains: {elbow: {p: 1}}}}",
+            [],
+        ),
+    ],
+)
+def test_interfaces_that_joints_do_not_have_are_reported(controllers: str, messages: list[str]):
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}, o: {{type: a/B}}}}\n") == messages
+
+
+@pytest.mark.parametrize(
+    ("group", "controllers", "code"),
+    [
+        ("base_link: base, tip_link: lower", "group: amr", "LF4104"),
+        ("base_link: base, tip_link: lower", "joints: [elbo]", "LF4103"),
+        ("base_link: base, tip_link: lowr", "group: arm", "LF4102"),
+    ],
+)
+def test_what_follows_from_a_wrong_name_is_not_reported(group: str, controllers: str, code: str):
+    trajectory = f"{{type: joint_trajectory_controller/JointTrajectoryController, {controllers}}}"
+    text = f"{ROBOT}semantic: {{groups: {{arm: {{chain: {{{group}}}}}}}}}\ncontrollers: {{t: {trajectory}}}\n"
+    compilation = compile_text(f"linkforge: 1\nname: robot\n{text}", formats=("moveit",))
+    assert {one.code.id for one in compilation.diagnostics} - {"LF7601"} == {code}
 
 
 def test_a_robot_without_hardware_has_no_controllers():

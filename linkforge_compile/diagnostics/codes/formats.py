@@ -193,6 +193,19 @@ FREE_IN_SDF = Code(
 MESH_STAYS_A_URI = Code(
     "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
 )
+RENAMED_SHAPE_IN_SDF = Code(
+    "LF7509",
+    Severity.NOTE,
+    "the shapes and sensors of a link share their names in SDF, so {shape} '{old}' of '{link}' is '{name}' there",
+    subject="link",
+    grouped_by=("shape", "old"),
+)
+TAKEN_IN_SDF = Code("LF7510", _E, "Gazebo refuses two parts of '{owner}' with the name '{name}'; rename one of them")
+NO_COLLISION_IN_SDF = Code(
+    "LF7511",
+    _W,
+    "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
+)
 
 # LF76xx: control and planning
 NO_LIMIT_FOR_MOVEIT = Code(
@@ -216,17 +229,18 @@ NOT_OF_CONTROLLER = Code(
 NOT_OF_HARDWARE = Code(
     "LF7606",
     _W,
-    "controller '{controller}' does not start: joint '{joint}' has no command interface in `ros2_control`",
+    "controller '{controller}' does not start: joint '{joint}' has no {what} in `ros2_control`",
     subject="joint",
-    grouped_by=("controller",),
+    grouped_by=("controller", "what"),
 )
 NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
 NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
 NOTHING_EXECUTES = Code(
     "LF7609",
     _W,
-    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
+    "MoveIt executes no motion of group '{group}': {reason}",
     subject="group",
+    grouped_by=("reason",),
 )
 UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
 WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")

@@ -22,7 +22,8 @@ DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
 IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
 FORCE_TORQUE = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
 
-GRIPPERS = (GRIPPER, OLD_GRIPPER, EFFORT_GRIPPER)
+JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
+"""The fields of a controller with names of joints."""
 
 _ANY: Mapping[str, str] = {
     "joints": "joints",
@@ -39,12 +40,15 @@ class Kind(NamedTuple):
     """A class of controllers.
 
     `parameters` are the names of its parameters by the fields of Controller; those in `single` have one name and no
-    list. It needs those in `required`, other parameters too. All of its parameters are in `parameters.py`.
+    list. It needs those in `required`, other parameters too. All of its parameters are in `parameters.py`. `commands`
+    and `states` are the interfaces of its joints that it claims where its fields have none.
     """
 
     parameters: Mapping[str, str] = MappingProxyType(_ANY)
     single: frozenset[str] = frozenset()
     required: tuple[str, ...] = ()
+    commands: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
 
 
 def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] = (), **renamed: str) -> Kind:
@@ -53,22 +57,26 @@ def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] 
 
 
 _GROUP, _SENSOR = _kind("joints"), _kind("sensor", "frame")
+_OLD_GRIPPER = _kind(single=("joints",), required=("joint",), joints="joint")._replace(states=("position", "velocity"))
+_GRIPPER = _OLD_GRIPPER._replace(
+    parameters={"joints": "joint", "state_interfaces": "state_interfaces"}, commands=("position",)
+)
 
 KINDS: Mapping[str, Kind] = {
     TRAJECTORY: _kind("joints", "command_interfaces", "state_interfaces"),
-    GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint", state_interfaces="state_interfaces"),
-    OLD_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
-    EFFORT_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
+    GRIPPER: _GRIPPER,
+    OLD_GRIPPER: _OLD_GRIPPER._replace(commands=("position",)),
+    EFFORT_GRIPPER: _OLD_GRIPPER._replace(commands=("effort",)),
     FORWARD: _kind("joints", single=("command_interfaces",), command_interfaces="interface_name"),
-    POSITION_GROUP: _GROUP,
-    VELOCITY_GROUP: _GROUP,
-    EFFORT_GROUP: _GROUP,
+    POSITION_GROUP: _GROUP._replace(commands=("position",)),
+    VELOCITY_GROUP: _GROUP._replace(commands=("velocity",)),
+    EFFORT_GROUP: _GROUP._replace(commands=("effort",)),
     STATES: Kind({"joints": "joints", "state_interfaces": "interfaces"}),
     DIFF_DRIVE: _kind(
         "left_wheels",
         "right_wheels",
         required=("left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"),
-    ),
+    )._replace(commands=("velocity",)),
     IMU: _SENSOR,
     FORCE_TORQUE: _SENSOR,
 }
