@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.geometry import Mesh
@@ -16,6 +16,8 @@ from linkforge_compile.diagnostics.codes.formats import (
     NOT_IN_SDF,
     WEIGHTLESS_IN_SDF,
 )
+from linkforge_compile.formats.limits import check_attributes, check_texts
+from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.check_names import check_names
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
@@ -27,8 +29,11 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
 
 
-def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
-    """Yield what is left out or changed in the SDF of a robot, and what Gazebo refuses."""
+def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> Iterator[Diagnostic]:
+    """Yield what `render` leaves out, changes or refuses in the SDF of a robot, and what Gazebo refuses."""
+    doubtful = doubtful_parts_of_urdf(robot)
+    yield from check_texts(robot, doubtful)
+    yield from check_attributes(doubtful.with_extras, robot, render)
     layout = Layout.of(robot)
     yield from check_names(robot, layout)
     yield from check_bodies(robot, layout)
