@@ -235,7 +235,7 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
         (
             "ft: {type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster, frame: upper}, o: {type: a/B}",
             "LF7604 controller 'ft' of type force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster does not "
-            "start without `sensor`",
+            "start without `sensor` or `interface_names` in `parameters`",
         ),
         (
             "g: {type: position_controllers/JointGroupPositionController, joints: [elbow], "
@@ -405,6 +405,21 @@ def test_a_list_that_ros_refuses_is_an_error(items: str, name: str):
 def test_the_name_of_a_controller_is_that_of_a_node(name: str, is_valid: bool):
     found = reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}}}\n")
     assert [one[:6] for one in found] == ["LF7624"] * (not is_valid)
+
+
+def test_a_force_torque_sensor_may_have_the_names_of_its_interfaces_instead():
+    type_ = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
+    names = "{interface_names: {force: {x: wrench/force.x}}}"
+    text = f"{ROBOT}controllers: {{ft: {{type: {type_}, frame: upper, parameters: {names}}}, o: {{type: a/B}}}}\n"
+    assert reported(text) == []
+
+
+def test_a_broadcaster_commands_no_joint():
+    states = "{type: joint_state_broadcaster/JointStateBroadcaster, joints: [shoulder, elbow, left, right]}"
+    arm = "{type: position_controllers/JointGroupPositionController, joints: [shoulder, elbow]}"
+    assert reported(f"{ROBOT}controllers: {{states: {states}, arm: {arm}}}\n") == [
+        "LF7607 no controller commands joint 'left'; the same for 'right'"
+    ]
 
 
 def test_a_joint_without_command_interface_is_reported():
