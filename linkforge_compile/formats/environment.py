@@ -83,7 +83,7 @@ def format_yaml(value: object) -> str:
     """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05.
 
     Raises:
-        TemplateRuntimeError: for what is no text, number, truth, None, list, map, vector or pose.
+        TemplateRuntimeError: for what is no text, number, boolean, None, list, map, vector or pose.
 
     """
     import yaml

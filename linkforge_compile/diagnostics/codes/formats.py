@@ -255,6 +255,30 @@ NOTHING_EXECUTES = Code(
 )
 UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
 WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
+STATED_TWICE = Code(
+    "LF7621",
+    _E,
+    "controller '{controller}' has '{parameter}' in `parameters`, and `{field}` for the same; remove one of them",
+)
+ONE_OF_SEVERAL = Code(
+    "LF7622",
+    _W,
+    "a {type} accepts one name in '{field}'; '{item}' of '{controller}' is left out",
+    subject="item",
+    grouped_by=("type", "field", "controller"),
+)
+LIST_OF_SEVERAL_TYPES = Code(
+    "LF7623",
+    _E,
+    "ROS 2 reads no parameters from a file with this list, '{parameter}' of '{controller}': items are all numbers, all "
+    "texts, or all true or false",
+)
+NO_NAME_OF_A_NODE = Code(
+    "LF7624",
+    _W,
+    "controller '{controller}' does not start: the name of a node has letters of ASCII, digits and '_' alone, and "
+    "begins with no digit",
+)
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
