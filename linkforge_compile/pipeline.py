@@ -5,9 +5,10 @@ Stages pass values on and report faults to the sink; no stage stops at the first
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks import check
@@ -199,7 +200,8 @@ class Settings(NamedTuple):
     """How to compile a spec.
 
     `options` are those of the output formats, and `formats` the ones whose limits are reported, none for the default
-    ones. `whole` is the budget that this compile shares with others.
+    ones. `output` is the folder of their documents, and `folders` are those of some formats; None if it is not known.
+    `whole` is the budget that this compile shares with others.
     """
 
     parameters: Parameters | None = None
@@ -210,6 +212,7 @@ class Settings(NamedTuple):
     output: Path | None = None
     allow_outside: bool = False
     formats: tuple[str, ...] = ()
+    folders: Mapping[str, Path] = MappingProxyType({})
     whole: Budget | None = None
 
     @property
@@ -308,16 +311,20 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     if lowered.robot is not None:
         for one in formats_or_default(settings.formats):
             sink.report_all(one.limits(lowered.robot, settings.options))
-        if settings.output is not None:
-            from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
-
-            written = formats_or_default(settings.formats)
-            documents = (one.name.upper() for one in written if one.has_relative_paths)
-            document = next(documents, "URDF")
-            sink.report_all(
-                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
-            )
+        sink.report_all(_misplaced_meshes(lowered.robot, spec, settings))
     return lowered.robot
+
+
+def _misplaced_meshes(robot: Robot, spec: SpecFile, settings: Settings) -> Iterator[Diagnostic]:
+    """Yield what is wrong with relative paths of meshes, once for each folder of outputs."""
+    documents: dict[Path, str] = {}
+    for one in formats_or_default(settings.formats):
+        if one.has_relative_paths and (folder := settings.folders.get(one.name, settings.output)):
+            documents.setdefault(folder, one.name.upper())
+    for folder, document in documents.items():
+        from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
+
+        yield from check_relative_mesh_paths(robot, folder, start=spec.folder, document=document)
 
 
 def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Compilation:

@@ -45,12 +45,21 @@ class Targets(NamedTuple):
             path / file for name, path in written.items() for file in formats.format_named(name).files or ("",)
         )
 
-    @property
-    def folder(self) -> Path | None:
-        """The folder where relative paths in the documents start; None where that is not known."""
-        names = (name for name in self.formats if formats.format_named(name).has_relative_paths)
-        path = self.paths.get(next(names, ""))
-        return path.parent if path else None
+    def folders(self, installed_in: Sequence[str]) -> Mapping[str, Path]:
+        """Return the final folder of each format's document, as far as it is known.
+
+        `installed_in` has the folder of all of them, or `FORMAT=FOLDER`.
+        """
+        names = [one.name for one in formats.FORMATS]
+        folders = {name: path.parent for name, path in self.paths.items() if path is not None}
+        of_formats: dict[str, Path] = {}
+        for word in installed_in:
+            name, equals, folder = word.partition("=")
+            if equals and name in names:
+                of_formats[name] = Path(folder)
+            else:
+                folders = dict.fromkeys(names, Path(word))
+        return {**folders, **of_formats}
 
     def without(self, names: Collection[str]) -> Targets:
         paths = {name: path for name, path in self.paths.items() if name not in names}
