@@ -200,9 +200,9 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
         ("BASE loose", "BASE takes fixed or free, found 'loose'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
-        ("FORMATS INSTALL", "nothing is said behind FORMATS"),
+        ("FORMATS INSTALL", "no value comes after FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
-        ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
+        ("DESTINATION urdf", "DESTINATION needs INSTALL"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
         ("PACKAGES arm=nowhere", "PACKAGES arm=nowhere: there is no folder '"),
         (
