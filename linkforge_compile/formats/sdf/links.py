@@ -10,9 +10,10 @@ from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geome
 from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
 from linkforge_compile.core.moments import possible_inertia, principal_moments
 from linkforge_compile.formats.element import attributes_at
-from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
+from linkforge_compile.formats.sdf.elements import parent, pose, text
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.models import Models
 from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
 from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.views import View
@@ -28,8 +29,10 @@ LEAST_MASS = 1e-9
 class Links:
     """Makes the views of the links that are bodies."""
 
-    def __init__(self, robot: Robot, layout: Layout, settings: Mapping[str | None, Settings], uris: MeshUris) -> None:
-        self._layout, self._settings, self._uris = layout, settings, uris
+    def __init__(
+        self, robot: Robot, layout: Layout, models: Models, settings: Mapping[str | None, Settings], uris: MeshUris
+    ) -> None:
+        self._layout, self._models, self._settings, self._uris = layout, models, settings, uris
         self._held: dict[str, list[Link]] = {}
         for link in robot.links:
             if not layout.is_world(link.name):
@@ -37,11 +40,11 @@ class Links:
 
     def view(self, link: Link, sensors: Mapping[str, list[View]]) -> View:
         """Return a link with the shapes and sensors of all that it holds; `sensors` are those of each link."""
-        joint, held = self._layout.above.get(link.name), self._held[link.name]
+        held = self._held[link.name]
         taken: set[str] = set()
         return View(
             attributes=attributes_at(link.source, name=link.name),
-            pose=pose_of_frame(self._layout.joint_names[joint.name] if joint else None),
+            pose=self._models.place(link.name, self._models.of_link(link.name)),
             inertial=inertial_element(link, is_weightless=link.name in self._layout.weightless),
             settings=link_elements(self._settings.get(link.name, ())),
             visuals=[self._visual(each, one, link, taken) for one in held for each in one.visuals],

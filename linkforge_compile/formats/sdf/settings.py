@@ -93,6 +93,8 @@ _MODEL_ELEMENTS = frozenset(
     ("plugin", "gripper", "frame", "joint", "link", "model", "include", "static", "self_collide", "allow_auto_disable")
 )
 
+_FLAGS_OF_MODELS = frozenset(("static", "self_collide", "allow_auto_disable"))
+
 _LINK_FLAGS = {
     "gravity": "gravity",
     "selfCollide": "self_collide",
@@ -134,6 +136,11 @@ def lost_settings(robot: Robot) -> Iterator[tuple[str | None, Setting]]:
 def model_elements(settings: Settings) -> Xml:
     """Return the settings of the robot itself."""
     return _copied(settings, _MODEL_ELEMENTS)
+
+
+def nested_model_elements(settings: Settings) -> Xml:
+    """Return the settings of the robot that hold for each of its models."""
+    return _copied(settings, _FLAGS_OF_MODELS)
 
 
 def link_elements(settings: Settings) -> Xml:
