@@ -47,17 +47,15 @@ from linkforge_compile.core.models.sensor import (
 )
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.transmission import (
     Transmission,
     TransmissionActuator,

@@ -156,6 +156,20 @@ def test_no_function_of_a_package_has_the_name_of_a_module_in_it():
             assert not defined & modules, path
 
 
+MOST_LINES_OF_MODULE, MOST_LINES_OF_FUNCTION = 350, 40
+
+
+def test_modules_and_functions_are_short():
+    """A decorator is not counted, a docstring is."""
+    for path in FILES:
+        text, file = path.read_text("utf-8"), path.relative_to(PACKAGE).as_posix()
+        assert text.count("\n") <= MOST_LINES_OF_MODULE, f"{file} is too long: split it by subject"
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                lines = node.end_lineno - node.lineno + 1
+                assert lines <= MOST_LINES_OF_FUNCTION, f"{file}:{node.lineno}: '{node.name}' is too long: split it"
+
+
 # The layout that the project prescribes, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
 FURTHER = "benchmarks cmake docs"

@@ -82,6 +82,7 @@ WITHOUT_A_CASE = {
     "LF7701": "collisions/test_command.py",
     "LF7702": "collisions/test_command.py",
     "LF7703": "collisions/test_command.py",
+    "LF7704": "formats/test_moveit.py",
     "LF8003": "importers/test_xml.py",
     "LF8004": "importers/test_xml.py",
     "LF8098": "importers/test_xml.py",

@@ -31,7 +31,8 @@ from linkforge_compile.source import Key, Span
 from linkforge_compile.units import WIDEST_ANGLE
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import CollisionPair, GroupState, VirtualJoint
+    from linkforge_compile.core.models.srdf import GroupState, VirtualJoint
+    from linkforge_compile.core.models.srdf_collisions import CollisionPair
 
 
 VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {

@@ -11,7 +11,7 @@ from linkforge_compile.collisions.pairs import Names, Reason, comparable_pairs
 from linkforge_compile.collisions.sampling import ALWAYS_SHARE, Finding, Progress, SamplingSettings, find_reasons
 from linkforge_compile.collisions.scene import make_scene
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.srdf import CollisionPair
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.collisions import HIDDEN_COLLISIONS
 
@@ -51,7 +51,7 @@ def find_matrix(
     sampled = [pair for pair in unknown if pair not in enabled]
     findings = find_reasons(scene, [comparable[pair] for pair in sampled], settings, progress)
     found = {pair: findings[comparable[pair]] for pair in sampled if comparable[pair] in findings}
-    sink.report_all(_hidden_collisions(robot, found))
+    sink.report_all(_hidden_collisions(robot, found, declared))
     with_shapes = {body.link for body in scene if body.shapes}
     kept = {
         pair: each.reason
@@ -63,11 +63,14 @@ def find_matrix(
     return Matrix(disabled, tuple(sorted((pair for pair in unknown if pair not in found), key=names.order)))
 
 
-def _hidden_collisions(robot: Robot, found: Mapping[Names, Finding]) -> Iterator[Diagnostic]:
+def _hidden_collisions(
+    robot: Robot, found: Mapping[Names, Finding], declared: Mapping[Names, CollisionPair]
+) -> Iterator[Diagnostic]:
     """Yield the pairs whose check is off because of the default pose, although most samples are free."""
-    for (one, other), finding in found.items():
+    for pair, finding in found.items():
         if finding.reason == Reason.DEFAULT and finding.share is not None and finding.share < ALWAYS_SHARE:
-            yield HIDDEN_COLLISIONS.at(robot.source, "name", pair=f"{one} and {other}")
+            place = (declared[pair].source,) if pair in declared else (robot.source, "name")
+            yield HIDDEN_COLLISIONS.at(*place, pair=" and ".join(pair))
 
 
 def _is_settled(pair: CollisionPair | None) -> bool:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf import CollisionPair
+    from linkforge_compile.core.models.srdf_collisions import CollisionPair
 
 
 def is_own(pair: CollisionPair) -> bool:

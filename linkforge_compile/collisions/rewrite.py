@@ -10,7 +10,7 @@ from linkforge_compile.collisions.modules import is_own
 from linkforge_compile.collisions.pairs import Names
 from linkforge_compile.collisions.section import entry_lines
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.srdf import CollisionPair
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.source import Position, SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, has_expression, is_null, leaves_in, read

@@ -27,7 +27,8 @@ from linkforge_compile.core.models.geometry import Color, Mesh, Transform, Vecto
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.ros2_control import Interface, Ros2Control
-from linkforge_compile.core.models.srdf import Chain, CollisionPair, JointProperty, LinkSphereApproximation
+from linkforge_compile.core.models.srdf import Chain, JointProperty
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation
 
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
 """A value that JSON can hold; numbers are in SI units."""

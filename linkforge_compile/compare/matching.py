@@ -14,12 +14,8 @@ from linkforge_compile.core.models.graph import child_joints, parent_joints, wal
 from linkforge_compile.core.models.joint import Joint, JointMimic
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.srdf import (
-    Chain,
-    CollisionPair,
-    GroupState,
-    SrdfSphere,
-)
+from linkforge_compile.core.models.srdf import Chain, GroupState
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, SrdfSphere
 from linkforge_compile.core.part import Element, Inside
 
 

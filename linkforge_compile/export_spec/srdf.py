@@ -11,12 +11,11 @@ from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.core.models.srdf import (
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
 )
+from linkforge_compile.core.models.srdf_collisions import LinkSphereApproximation, SrdfSphere
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import export_children, export_element, export_fields
 from linkforge_compile.source import SourceRef

@@ -123,27 +123,38 @@ def parse_rendered(text: str, *, most_nested: float = inf) -> XmlNode:
             is_closed = tag[-2] == "/"
             if is_closed and not has_insides:
                 node.content.append(tag.replace(KEEPS_SPACE, ""))
-                continue
-            inner = XmlNode(tag, keeps_space=node.keeps_space)
-            if ":space=" in tag:
-                _take_space(inner)
-            node.content.append(inner)
-            if not is_closed:
+            elif is_closed:
+                _append_element(node, tag)
+            else:
                 around.append(node)
-                node = inner
+                node = _append_element(node, tag)
                 if len(around) > most_nested:
                     raise RobotGeneratorError(f"its elements are nested more than {most_nested} deep")
-    document, *unclosed = [*around, node]
+    return _complete([*around, node], has_insides=has_insides)
+
+
+_NOT_ELEMENTS = frozenset({"</", "<!", "<?", "<"})
+"""How tokens begin that are no first tag of an element."""
+
+
+def _append_element(node: XmlNode, tag: str) -> XmlNode:
+    """Add an element with its first tag to the content of another, and return it."""
+    inner = XmlNode(tag, keeps_space=node.keeps_space)
+    if ":space=" in tag:
+        _take_space(inner)
+    node.content.append(inner)
+    return inner
+
+
+def _complete(nodes: Sequence[XmlNode], *, has_insides: bool) -> XmlNode:
+    """Return the document, the first of the nodes; the others are its innermost elements, which have no last tag."""
+    document, *unclosed = nodes
     for inner in unclosed:
         inner.close("")
     document.content = [item for item in document.content if isinstance(item, XmlNode) or not is_xml_blank(item)]
     if has_insides:
         _place_insides(document)
     return document
-
-
-_NOT_ELEMENTS = frozenset({"</", "<!", "<?", "<"})
-"""How tokens begin that are no first tag of an element."""
 
 
 def _without_break(found: re.Match[str]) -> str:

@@ -22,11 +22,11 @@ from linkforge_compile.core.models.srdf import (
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import LinkSphereApproximation
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator
 from linkforge_compile.core.part import Element
 from linkforge_compile.source.xml_tree import ATTRIBUTE, MARKUP

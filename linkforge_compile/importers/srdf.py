@@ -7,15 +7,13 @@ from dataclasses import dataclass, field
 
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
-    SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.importing import OTHER_ROBOT
 from linkforge_compile.importers.document import Imported, place_comments

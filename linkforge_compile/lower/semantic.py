@@ -14,11 +14,10 @@ from linkforge_compile.core.models.srdf import (
     Chain,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
 )
+from linkforge_compile.core.models.srdf_collisions import LinkSphereApproximation, SrdfSphere
 from linkforge_compile.diagnostics.codes.model import (
     EMPTY_GROUP,
     PAIR_WITH_ITSELF,

@@ -220,7 +220,9 @@ def _located(used: Span, location: Location) -> tuple[Link, ...]:
 
 def _steps(source: SourceRef, path: Iterable[str | int]) -> Iterator[Step]:
     node = source.node
-    yield None, source.span
+    # The name of a robot is inside of its node, not above it.
+    if not source.span.lies_in(node.span):
+        yield None, source.span
     for key in path:
         inner, place = node.child(key), node.key_span(str(key))
         if inner or place:

@@ -142,6 +142,16 @@ def test_pairs_that_only_the_default_pose_disables_are_noted_once(tmp_path: Path
         "check will find it; list them in 'enabled_collisions' to keep the check" in done.stderr
     )
     assert done.stderr.count("LF7703") == 1
+    assert "inserted here" not in done.stderr
+
+
+def test_a_declared_pair_that_only_the_default_pose_disables_is_noted_at_its_place(tmp_path: Path):
+    path = tmp_path / "folded.robot.yaml"
+    pairs = "semantic:\n  disabled_collisions:\n    base: {hand: Default}\n"
+    path.write_text(HEAD + FOLDED + pairs, "utf-8")
+    done = linkforge("collisions", path.name, cwd=tmp_path)
+    line = len((HEAD + FOLDED + pairs).splitlines())
+    assert f"folded.robot.yaml:{line}:12: note: base and hand collide in the default pose" in done.stderr
 
 
 def test_enabled_pairs_are_not_disabled(tmp_path: Path):

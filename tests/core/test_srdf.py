@@ -8,17 +8,15 @@ from hypothesis import given
 from linkforge_compile.core.exceptions import RobotMathError, RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from tests.strategies import semantics
 
 

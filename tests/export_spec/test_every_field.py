@@ -37,7 +37,8 @@ from linkforge_compile.core.models.sensor import (
     SensorNoise,
     SensorType,
 )
-from linkforge_compile.core.models.srdf import CollisionPair, EndEffector, PlanningGroup
+from linkforge_compile.core.models.srdf import EndEffector, PlanningGroup
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import Inside
 from linkforge_compile.export_spec import write_spec

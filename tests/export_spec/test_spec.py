@@ -15,7 +15,8 @@ from linkforge_compile.core.models.link import Collision, Inertial, InertiaTenso
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Interface, Ros2Control, Ros2ControlJoint
 from linkforge_compile.core.models.sensor import CameraInfo, Sensor, SensorType
-from linkforge_compile.core.models.srdf import CollisionPair, GroupState, PlanningGroup, SemanticRobotDescription
+from linkforge_compile.core.models.srdf import GroupState, PlanningGroup, SemanticRobotDescription
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 
 STEEL = Material("steel", Color(0.6, 0.6, 0.65))
 

@@ -33,17 +33,15 @@ from linkforge_compile.core.models.ros2_control import (
 from linkforge_compile.core.models.sensor import CameraInfo, IMUInfo, LidarInfo, Sensor, SensorNoise, SensorType
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.transmission import Transmission
 
 STEEL = Material("steel", Color(0.6, 0.6, 0.65))

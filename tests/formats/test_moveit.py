@@ -165,3 +165,49 @@ def test_each_file_has_a_source_map():
     place = map_.at(text.splitlines().index("arm:") + 1)
     assert place is not None
     assert place.span.text == "arm"
+
+
+NEIGHBORS = """\
+links:
+  base: {collision: {sphere: 0.1}}
+  arm: {collision: {sphere: 0.1}}
+  flange:
+  hand: {collision: {sphere: 0.1}}
+  ball: {collision: {sphere: 0.1}}
+joints:
+  turn: {type: continuous, parent: base, child: arm, axis: z}
+  tip: {type: fixed, parent: arm, child: flange}
+  tool: {type: fixed, parent: flange, child: hand}
+  throw: {type: floating, parent: base, child: ball}
+semantic:
+  groups: {arm: {joints: [turn]}}
+"""
+
+
+def undecided_pairs(semantic: str) -> list[str]:
+    limits = MOVEIT.limits(robot_of(NEIGHBORS + semantic), {})
+    return [one.subject for one in limits if one.code.id == "LF7704"]
+
+
+def test_neighbors_without_a_pair_are_reported_at_the_section():
+    assert undecided_pairs("") == ["base and arm", "arm and hand"]
+    compilation = compile_text(
+        f"linkforge: 1\nname: robot\n{NEIGHBORS}  disabled_collisions: {{hand: {{ball: Never}}}}\n", formats=["moveit"]
+    )
+    assert [str(one) for one in compilation.diagnostics if one.code.id == "LF7704"] == [
+        "<text>:16:24: warning: MoveIt checks 'base and arm' for collisions, although a joint connects them; list "
+        "adjacent links in `disabled_collisions`, as 'linkforge collisions SPEC --write' does; the same for 'arm and "
+        "hand' [LF7704]"
+    ]
+
+
+@pytest.mark.parametrize(
+    "semantic",
+    [
+        "disabled_collisions: {arm: {base: Adjacent, hand: Adjacent}}",
+        "enabled_collisions: {base: {arm: }, arm: {hand: }}",
+        "no_default_collision_links: [arm]",
+    ],
+)
+def test_neighbors_whose_check_is_decided_are_not_reported(semantic: str):
+    assert undecided_pairs(f"  {semantic}\n") == []

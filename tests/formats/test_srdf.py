@@ -1,16 +1,14 @@
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
-    SrdfSphere,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.formats.render import render_srdf
 from tests.formats.inside import srdf, xml
 

@@ -15,14 +15,13 @@ from linkforge_compile.core.models.link import Inertial, InertiaTensor, Visual
 from linkforge_compile.core.models.ros2_control import Ros2Control, Ros2ControlJoint, Ros2ControlSensor
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     VirtualJoint,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation
 from linkforge_compile.core.models.transmission import Transmission, TransmissionJoint
 from linkforge_compile.core.part import Element
 from linkforge_compile.diagnostics import Diagnostics

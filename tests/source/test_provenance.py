@@ -49,6 +49,16 @@ def test_a_chain_of_a_value_in_an_override_does_not_repeat_the_override(tmp_path
     assert (effort.kind, effort.span.file.path.name, effort.span.text) == (Kind.WRITTEN, "cell.robot.yaml", "8")
 
 
+def test_only_an_alias_inserts_the_name_of_a_robot(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\nlinks: {base: }\n")
+    [written] = provenance_of(compile_file(tmp_path / "arm.robot.yaml").result().source, "name")
+    assert (written.kind, written.span.line) == (Kind.WRITTEN, 2)
+    aliased = "linkforge: 1\nlinks: {&name base: }\nname: *name\n"
+    (tmp_path / "arm.robot.yaml").write_text(aliased)
+    chain = provenance_of(compile_file(tmp_path / "arm.robot.yaml").result().source, "name")
+    assert [(link.kind, link.span.line) for link in chain] == [(Kind.WRITTEN, 2), (Kind.ALIAS, 3)]
+
+
 def test_each_kind_of_link_has_words():
     assert set(WORDS) == set(Kind)
     assert all(any(words) for words in WORDS.values())

@@ -15,18 +15,16 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     EndEffector,
     GroupState,
     JointProperty,
-    LinkSphereApproximation,
     PassiveJoint,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
     VirtualJoint,
     chain_between,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 
 __all__ = [
     "IComposer",

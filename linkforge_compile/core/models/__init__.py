@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.ros2_control import *  # noqa: F403
     from linkforge_compile.core.models.sensor import *  # noqa: F403
     from linkforge_compile.core.models.srdf import *  # noqa: F403
+    from linkforge_compile.core.models.srdf_collisions import *  # noqa: F403
     from linkforge_compile.core.models.transmission import *  # noqa: F403
 
 _NAMES = {
@@ -33,8 +34,9 @@ _NAMES = {
     "robot": "Robot",
     "ros2_control": "Interface Ros2Control Ros2ControlGpio Ros2ControlJoint Ros2ControlSensor",
     "sensor": "CameraInfo ContactInfo ForceTorqueInfo GPSInfo IMUInfo LidarInfo Sensor SensorNoise SensorType",
-    "srdf": "Chain CollisionPair EndEffector GroupState JointProperty "
-    "LinkSphereApproximation PassiveJoint PlanningGroup SemanticRobotDescription SrdfSphere VirtualJoint",
+    "srdf": "Chain EndEffector GroupState JointProperty PassiveJoint PlanningGroup "
+    "SemanticRobotDescription VirtualJoint",
+    "srdf_collisions": "CollisionPair LinkSphereApproximation SrdfSphere",
     "transmission": "Transmission TransmissionActuator TransmissionJoint TransmissionType",
 }
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names.split()}

@@ -26,14 +26,12 @@ from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor
 from linkforge_compile.core.models.srdf import (
     Chain,
-    CollisionPair,
     JointProperty,
-    LinkSphereApproximation,
     PlanningGroup,
     SemanticRobotDescription,
-    SrdfSphere,
     chain_between,
 )
+from linkforge_compile.core.models.srdf_collisions import CollisionPair, LinkSphereApproximation, SrdfSphere
 from linkforge_compile.core.models.transmission import Transmission
 
 

@@ -17,3 +17,10 @@ HIDDEN_COLLISIONS = Code(
     "'enabled_collisions' to keep the check",
     subject="pair",
 )
+ADJACENT_CHECKED = Code(
+    "LF7704",
+    Severity.WARNING,
+    "MoveIt checks '{pair}' for collisions, although a joint connects them; list adjacent links in "
+    "`disabled_collisions`, as 'linkforge collisions SPEC --write' does",
+    subject="pair",
+)
