@@ -273,7 +273,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     )
     echo.chmod(0o755)
     (tmp_path / "parts").mkdir()
-    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic NESTED yes PACKAGES parts=parts INSTALL'
+    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic NESTED yes'
+    add += " PACKAGES parts=parts INSTALL"
     text = f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
     assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
     build = subprocess.run(
