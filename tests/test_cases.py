@@ -70,6 +70,8 @@ WITHOUT_A_CASE = {
     "LF7506": "formats/test_sdf.py",
     "LF7507": "formats/test_sdf.py",
     "LF7508": "formats/test_sdf.py",
+    "LF7509": "formats/test_sdf_nested.py",
+    "LF7510": "formats/test_sdf.py",
     "LF7601": "formats/test_joint_limits.py",
     "LF7602": "formats/test_joint_limits.py",
     "LF7603": "formats/test_ros2_controllers.py",

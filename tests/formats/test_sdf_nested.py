@@ -86,16 +86,15 @@ modules:
 """
 
 
+def compiled_with_parts(text: str, folder: Path) -> Robot:
+    for name, content in {"hand": HAND, "arm": ARM, "two": text}.items():
+        (folder / f"{name}.robot.yaml").write_text(f"linkforge: 1\nname: {name}\n{content}")
+    return compile_file(folder / "two.robot.yaml").result()
+
+
 @pytest.fixture
 def two_arms(tmp_path: Path) -> Robot:
-    texts = {
-        "hand": HAND,
-        "arm": ARM,
-        "two": TWO,
-    }
-    for name, text in texts.items():
-        (tmp_path / f"{name}.robot.yaml").write_text(f"linkforge: 1\nname: {name}\n{text}")
-    return compile_file(tmp_path / "two.robot.yaml").result()
+    return compiled_with_parts(TWO, tmp_path)
 
 
 def test_modules_are_models_inside_each_other(two_arms: Robot, tmp_path: Path):
@@ -164,3 +163,41 @@ def test_the_command_has_a_flag_that_may_precede_the_spec(tmp_path: Path):
     spec = ROOT / "examples" / "03_two_ur5e" / "two_ur5e.robot.yaml"
     assert main(["compile", "--nested", str(spec), "-o", str(tmp_path / "two.sdf")]) == 0
     assert '<model name="left">' in (tmp_path / "two.sdf").read_text("utf-8")
+
+
+CONTROLLED = f"""
+links: {{torso: {{{UNIT}}}}}
+modules: {{left: {{use: arm.robot.yaml, parent: torso}}}}
+ros2_control: {{left: {{hardware_plugin: PLUGIN, joints: {{left_hand_bend: {{command_interfaces: [position]}}}}}}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "messages"),
+    [
+        (
+            CONTROLLED.replace("PLUGIN", "gz_ros2_control/GazeboSimSystem"),
+            [
+                "LF7509 gz_ros2_control finds no joints in nested models, so it does not move 'left_hand_bend'; "
+                "leave out `--nested`"
+            ],
+        ),
+        (CONTROLLED.replace("PLUGIN", "mock_components/GenericSystem"), []),
+        (
+            f"links: {{torso: {{{UNIT}}}}}\nmodules: {{__left__: {{use: arm.robot.yaml, parent: torso, prefix: l_}}}}",
+            ["LF7505 SDF has the name '__left__' for a frame of its own; rename this one"],
+        ),
+    ],
+)
+def test_what_nested_models_cannot_do_is_reported(text: str, messages: list[str], tmp_path: Path):
+    robot = compiled_with_parts(text, tmp_path)
+    assert [messages, []] == [
+        [f"{one.code.id} {one.message}" for one in SDF.limits(robot, options) if one.code.id in ("LF7505", "LF7509")]
+        for options in ({"nested": "yes"}, {"nested": "no"})
+    ]
+
+
+def test_a_model_with_the_name_of_a_link_is_called_otherwise(tmp_path: Path):
+    text = f"links: {{arm: {{{UNIT}}}}}\nmodules: {{arm: {{use: arm.robot.yaml, parent: arm}}}}"
+    robot = compiled_with_parts(text, tmp_path)
+    assert list(require_same_nested(robot, tmp_path).models) == ["two", "arm_model", "arm_model::hand"]

@@ -193,6 +193,15 @@ FREE_IN_SDF = Code(
 MESH_STAYS_A_URI = Code(
     "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
 )
+NOT_FOUND_NESTED = Code(
+    "LF7509",
+    _W,
+    "gz_ros2_control finds no joints in nested models, so it does not move '{joint}'; leave out `--nested`",
+    subject="joint",
+)
+NO_BODY_IN_SDF = Code(
+    "LF7510", _E, "Gazebo refuses a model without links, as '{robot}' is; give it one that is not `world`"
+)
 
 # LF76xx: control and planning
 NO_LIMIT_FOR_MOVEIT = Code(

@@ -48,6 +48,11 @@ class Sdf(TemplateFormat):
     has_relative_paths = True
     options = (VERSION, MESHES, NESTED)
 
+    def missing(self, robot: Robot) -> Diagnostic | None:
+        from linkforge_compile.formats.sdf.limits import missing_body
+
+        return missing_body(robot)
+
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.sdf.limits import sdf_limits
 

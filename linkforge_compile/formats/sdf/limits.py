@@ -17,7 +17,9 @@ from linkforge_compile.diagnostics.codes.formats import (
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
     MESH_STAYS_A_URI,
+    NO_BODY_IN_SDF,
     NO_MIMIC_IN_SDF,
+    NOT_FOUND_NESTED,
     NOT_IN_SDF,
     RENAMED_IN_SDF,
     RESERVED_IN_SDF,
@@ -28,7 +30,8 @@ from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.meshes import MeshUris
-from linkforge_compile.formats.sdf.settings import lost_settings, settings_by_reference
+from linkforge_compile.formats.sdf.models import ROBOT, SEPARATOR, Models
+from linkforge_compile.formats.sdf.settings import lost_settings, replaced_settings, settings_by_reference
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
 from linkforge_compile.source import SourceRef
 
@@ -39,8 +42,12 @@ Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str | int, ...]]
 """What SDF has no place for, the name of the part, and where it was written."""
 
 
-_NESTED = "::"
-"""Between the names of a nested model and of a part of it."""
+def missing_body(robot: Robot) -> Diagnostic | None:
+    """Return why a robot is no model of Gazebo; None where it is."""
+    layout = Layout.of(robot)
+    if any(layout.is_body(link) for link in robot.links):
+        return None
+    return NO_BODY_IN_SDF.at(robot.source, "name", robot=robot.name)
 
 
 def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
@@ -51,6 +58,8 @@ def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
     yield from check_joints(robot, has_mimic=sdf_version(robot, choices) == WITH_MIMIC)
     if choices.has_files:
         yield from check_files(robot)
+    if choices.is_nested:
+        yield from check_nested(robot, layout)
     for parts, name, source, path in _losses(robot, layout):
         yield NOT_IN_SDF.at(source, *path, parts=parts, name=name)
 
@@ -60,14 +69,14 @@ def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
     parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
     for part in parts:
         is_world = isinstance(part, Link) and layout.is_world(part.name)
-        if not is_world and (part.name == WORLD or (part.name.startswith("__") and part.name.endswith("__"))):
+        if not is_world and _is_reserved(part.name):
             yield RESERVED_IN_SDF.at(part.source, name=part.name)
     for sensor in robot.sensors:
-        if _NESTED in sensor.name:
+        if SEPARATOR in sensor.name:
             yield RESERVED_IN_SDF.at(sensor.source, name=sensor.name)
     for settings in settings_by_reference(robot).values():
         for setting in settings:
-            if setting.tag != "plugin" and (name := next((one for one in setting.names if _NESTED in one), None)):
+            if setting.tag != "plugin" and (name := next((one for one in setting.names if SEPARATOR in one), None)):
                 yield RESERVED_IN_SDF.at(setting.source, *setting.path, name=name)
     for joint in robot.joints:
         if (name := layout.joint_names[joint.name]) != joint.name:
@@ -92,6 +101,26 @@ def check_joints(robot: Robot, *, has_mimic: bool) -> Iterator[Diagnostic]:
             yield FREE_IN_SDF.at(joint.source, "type", joint=joint.name, link=joint.child)
         if joint.mimic and not has_mimic:
             yield NO_MIMIC_IN_SDF.at(joint.source, "mimic", joint=joint.name)
+
+
+def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
+    """A module has a name that SDF keeps for nothing else, and gz_ros2_control looks into the outermost model alone."""
+    models = Models(layout, is_nested=True)
+    uses = {use.module: use for link in robot.links if link.source for use in link.source.trail}
+    for name in dict.fromkeys(model[-1] for model in models.all if model):
+        if _is_reserved(name) or SEPARATOR in name:
+            yield RESERVED_IN_SDF.at(uses[name], name=name)
+    for hardware in robot.ros2_controls:
+        for joint in hardware.joints if hardware.hardware_plugin.startswith(_OF_GAZEBO) else ():
+            if robot.has_joint(joint.name) and models.of_joint(robot.joints[joint.name]) != ROBOT:
+                yield NOT_FOUND_NESTED.at(joint.source, joint=joint.name)
+
+
+_OF_GAZEBO = ("gz_ros2_control/", "ign_ros2_control/")
+
+
+def _is_reserved(name: str) -> bool:
+    return name == WORLD or (name.startswith("__") and name.endswith("__"))
 
 
 def check_files(robot: Robot) -> Iterator[Diagnostic]:
@@ -120,6 +149,9 @@ def _losses(robot: Robot, layout: Layout) -> Iterator[Loss]:
             yield "force-torque sensors without a joint", sensor.name, sensor.source, ("link",)
     for reference, setting in lost_settings(robot):
         yield f"place for the setting '{setting.tag}'", reference or robot.name, setting.source, setting.path
+    for reference, setting in replaced_settings(robot):
+        words = f"second <surface>, so no place for the setting '{setting.tag}'"
+        yield words, reference, setting.source, setting.path
     for block in robot.gazebo_elements:
         if block.reference is not None:
             for plugin in block.plugins:

@@ -46,6 +46,9 @@ class Models:
         bodies = (self._of_links[link.name] for link in layout.robot.links if layout.is_body(link))
         self.all = tuple(dict.fromkeys(model[:end] for model in (ROBOT, *bodies) for end in range(len(model) + 1)))
         self.names = self._unique_names()
+        self._inside: dict[Model, list[Model]] = defaultdict(list)
+        for model in self.all[1:]:
+            self._inside[model[:-1]].append(model)
 
     def of_link(self, link: str) -> Model:
         """Return the model of a link, whether that is a body, a frame or the world."""
@@ -56,7 +59,7 @@ class Models:
 
     def inside(self, model: Model) -> Sequence[Model]:
         """Return the models directly inside another."""
-        return [one for one in self.all if one and one[:-1] == model]
+        return self._inside.get(model, ())
 
     def link_in(self, model: Model, link: str) -> str:
         """Return how a model refers to a link in it, or in one inside it."""
@@ -123,11 +126,12 @@ class Models:
         """Return the names of nested models: those of the modules, unless a link or joint has that."""
         layout = self._layout
         of_parts = {*layout.robot.links.names, *layout.joint_names.values()} - {WORLD}
+        taken: dict[Model, set[str]] = defaultdict(of_parts.copy)
         names: dict[Model, str] = {}
         for model in self.all[1:]:
-            taken = of_parts | {name for other, name in names.items() if other[:-1] == model[:-1]}
-            name = model[-1]
-            names[model] = unique_name(f"{name}_model" if name in of_parts else name, taken)
+            name, around = model[-1], taken[model[:-1]]
+            names[model] = unique_name(f"{name}_model" if name in of_parts else name, around)
+            around.add(names[model])
         return names
 
 
