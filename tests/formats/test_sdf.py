@@ -158,7 +158,7 @@ links:
     assert relative.findtext(".//uri") == "meshes/base.stl"
     assert (capsule.findtext(".//radius"), capsule.findtext(".//length")) == ("1", "2")
     names = [shape.get("name") for shape in (mesh, relative, capsule)]
-    assert names == ["base_visual", "base_visual_2", "base_visual_3"]
+    assert names == ["base_visual", "base_visual_1", "base_visual_2"]
 
 
 def test_meshes_are_files_where_that_is_requested(tmp_path: Path):
@@ -296,5 +296,5 @@ def test_a_source_map_says_where_a_limit_was_written():
 def test_a_robot_without_links_is_no_model():
     missing = SDF.missing(compiled("links: {world: }"))
     assert missing is not None
-    assert missing.code.id == "LF7510"
+    assert missing.code.id == "LF7513"
     assert SDF.missing(compiled("links: {base: {inertial: *unit}}")) is None

@@ -178,7 +178,7 @@ ros2_control: {{left: {{hardware_plugin: PLUGIN, joints: {{left_hand_bend: {{com
         (
             CONTROLLED.replace("PLUGIN", "gz_ros2_control/GazeboSimSystem"),
             [
-                "LF7509 gz_ros2_control finds no joints in nested models, so it does not move 'left_hand_bend'; "
+                "LF7512 gz_ros2_control finds no joints in nested models, so it does not move 'left_hand_bend'; "
                 "leave out `--nested`"
             ],
         ),
@@ -192,7 +192,7 @@ ros2_control: {{left: {{hardware_plugin: PLUGIN, joints: {{left_hand_bend: {{com
 def test_what_nested_models_cannot_do_is_reported(text: str, messages: list[str], tmp_path: Path):
     robot = compiled_with_parts(text, tmp_path)
     assert [messages, []] == [
-        [f"{one.code.id} {one.message}" for one in SDF.limits(robot, options) if one.code.id in ("LF7505", "LF7509")]
+        [f"{one.code.id} {one.message}" for one in SDF.limits(robot, options) if one.code.id in ("LF7505", "LF7512")]
         for options in ({"nested": "yes"}, {"nested": "no"})
     ]
 

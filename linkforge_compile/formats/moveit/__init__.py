@@ -46,6 +46,7 @@ class MoveIt(Format):
     description = "the configuration of MoveIt, with the URDF and the SRDF"
     keeps = "the URDF, the SRDF, kinematics solvers, limits of joints, controllers and initial positions"
     loses = "planning pipelines, sensors and launch files, for which MoveIt has defaults"
+    has_urdf = True
     options = Urdf.options
 
     def missing(self, robot: Robot) -> Diagnostic | None:
@@ -57,7 +58,7 @@ class MoveIt(Format):
         from linkforge_compile.formats.moveit.collisions import check_adjacent_links
         from linkforge_compile.formats.moveit.limits import check_execution
 
-        others = (one.limits(robot, options) for one in _WHOLE_FILES.values() if not one.is_default)
+        others = (one.limits(robot, options) for one in _WHOLE_FILES.values())
         return chain(*others, check_execution(robot), check_adjacent_links(robot))
 
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
