@@ -73,6 +73,8 @@ WITHOUT_A_CASE = {
     "LF7509": "formats/test_sdf_names.py",
     "LF7510": "formats/test_sdf_names.py",
     "LF7511": "formats/test_sdf_names.py",
+    "LF7512": "formats/test_sdf_nested.py",
+    "LF7513": "formats/test_sdf.py",
     "LF7514": "formats/test_sdf.py",
     "LF7601": "formats/test_joint_limits.py",
     "LF7602": "formats/test_joint_limits.py",

@@ -209,6 +209,7 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
         ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
         ("BASE loose", "BASE takes fixed or free, found 'loose'"),
+        ("NESTED true", "NESTED takes no or yes, found 'true'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("FORMATS INSTALL", "no value comes after FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
@@ -282,7 +283,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     )
     echo.chmod(0o755)
     (tmp_path / "parts").mkdir()
-    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic PACKAGES parts=parts INSTALL'
+    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic NESTED yes'
+    add += " PACKAGES parts=parts INSTALL"
     text = f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
     assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
     build = subprocess.run(
@@ -291,7 +293,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     lines = build.stdout.splitlines()
     assert lines[lines.index("-p") : lines.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
-        *("--variant", "sim", "--gazebo", "classic", "--installed-in", f"urdf={tmp_path / 'robots'}"),
+        *("--variant", "sim", "--gazebo", "classic", "--nested"),
+        *("--installed-in", f"urdf={tmp_path / 'robots'}"),
         *("--format", "urdf"),
     ]
 

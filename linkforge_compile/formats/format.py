@@ -26,14 +26,21 @@ Templates: TypeAlias = "TemplateFolder | str | Path | None"
 
 NO_OPTIONS: Options = MappingProxyType({})
 
+NO_YES = ("no", "yes")
+"""The choices of an option that the command line has as a flag."""
+
 
 class Option(NamedTuple):
-    """A choice that a format leaves to its user; the command line has it as `--NAME`."""
+    """A choice that a format leaves to its user; the command line has it as `--NAME`, a flag for `NO_YES`."""
 
     name: str
     choices: tuple[str, ...]
     default: str
     help: str
+
+    @property
+    def is_flag(self) -> bool:
+        return self.choices == NO_YES
 
     def value(self, options: Options) -> str:
         """Return the value of this option.

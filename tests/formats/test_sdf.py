@@ -323,3 +323,10 @@ def test_a_source_map_says_where_a_limit_was_written():
     place = result.map.at(next(number for number, line in enumerate(lines, 1) if "<upper>" in line))
     assert place is not None
     assert place.span.text == "2"
+
+
+def test_a_robot_without_links_is_no_model():
+    missing = SDF.missing(compiled("links: {world: }"))
+    assert missing is not None
+    assert missing.code.id == "LF7513"
+    assert SDF.missing(compiled("links: {base: {inertial: *unit}}")) is None

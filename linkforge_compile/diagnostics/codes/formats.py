@@ -210,6 +210,15 @@ NO_COLLISION_IN_SDF = Code(
     _W,
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
 )
+NOT_FOUND_NESTED = Code(
+    "LF7512",
+    _W,
+    "gz_ros2_control finds no joints in nested models, so it does not move '{joint}'; leave out `--nested`",
+    subject="joint",
+)
+NO_BODY_IN_SDF = Code(
+    "LF7513", _E, "Gazebo refuses a model without links, as '{robot}' is; give it one that is not `world`"
+)
 MIMIC_OF_ENGINE = Code(
     "LF7514",
     Severity.NOTE,

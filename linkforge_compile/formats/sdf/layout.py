@@ -106,15 +106,6 @@ class Layout:
             taken.add(names[joint.name])
         return names
 
-    def canonical_link(self) -> str | None:
-        """Return the link that the frame of the model moves with; None for the first one, as is the default."""
-        bodies = [link.name for link in self.robot.links if self.is_body(link)]
-        root = next((link.name for link in self.robot.links if link.name not in self.above), None)
-        if root is None or self.is_world(root):
-            return None
-        body = self.body_of(root)
-        return None if bodies[:1] == [body] else body
-
     def is_body(self, link: Link) -> bool:
         """Whether a link is a link in SDF, and neither a frame nor the world."""
         return link.name not in self.frames and not self.is_world(link.name)
