@@ -36,6 +36,11 @@ class Targets(NamedTuple):
         return () if self.are_documents else tuple(self.paths)
 
     @property
+    def template_folders(self) -> frozenset[str]:
+        """The folders of the templates that linkforge has for the formats."""
+        return frozenset(folder for name in self.formats for folder in formats.format_named(name).template_folders)
+
+    @property
     def files(self) -> tuple[Path, ...]:
         """The files that rendering to the targets writes, without source maps."""
         written = {name: path for name, path in self.paths.items() if path is not None}

@@ -37,6 +37,21 @@ def test_files_that_are_up_to_date_pass(arm: Path, capfd: pytest.CaptureFixture[
     assert capfd.readouterr().err == "urdf/arm.urdf is up to date\nurdf/arm.srdf is up to date\n"
 
 
+def test_many_files_that_are_up_to_date_are_counted(arm: Path, capfd: pytest.CaptureFixture[str]):
+    words = ["compile", "arm.robot.yaml", "-o", ".", *(f"--format={one}" for one in ("urdf", "srdf", "sdf", "mjcf"))]
+    assert main(words) == 0
+    (arm / "arm.sdf").unlink()
+    capfd.readouterr()
+    assert main(words) == 0
+    assert capfd.readouterr().err.splitlines()[-4:] == [
+        *(f"{name} is up to date" for name in ("arm.urdf", "arm.srdf")),
+        "wrote arm.sdf",
+        "arm.mjcf is up to date",
+    ]
+    assert main(words) == 0
+    assert capfd.readouterr().err.splitlines()[-1] == "4 files are up to date"
+
+
 def test_a_changed_spec_is_reported_at_the_first_different_line(arm: Path, capfd: pytest.CaptureFixture[str]):
     before = (arm / "urdf" / "arm.urdf").read_bytes()
     line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1

@@ -1,6 +1,7 @@
 """A format is one object in `formats.FORMATS`: commands, the compiler and source maps learn of it from that."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,8 @@ from linkforge_compile.cli import INTERRUPTED
 from linkforge_compile.cli.commands import watch
 from linkforge_compile.cli.main import main
 from linkforge_compile.formats.environment import XML_ENDINGS
-from linkforge_compile.formats.format import TemplateFormat
+from linkforge_compile.formats.format import Format, TemplateFormat
+from linkforge_compile.resources import format_templates
 from tests.formats.example_formats import Folder, Joints, Limits
 
 SPEC = """\
@@ -220,3 +222,10 @@ def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.Mo
 def test_templates_of_documents_that_are_xml_are_those_of_formats_of_xml():
     own = [one for one in formats.FORMATS if isinstance(one, TemplateFormat)]
     assert set(XML_ENDINGS) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
+
+
+@pytest.mark.parametrize("one", formats.FORMATS, ids=lambda one: one.name)
+def test_the_templates_of_a_format_include_no_others(one: Format):
+    for path in format_templates(one.template_folders):
+        included = re.findall(r'"([a-z0-9_]+)/[^"]*"', path.read_text("utf-8"))
+        assert set(included) <= set(one.template_folders), path

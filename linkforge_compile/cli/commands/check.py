@@ -7,7 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, check_settings_of, check_spec, split_assignments
+from linkforge_compile.cli.options import (
+    add_format_options,
+    add_spec_options,
+    check_settings_of,
+    check_spec,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import (
     add_report_options,
     add_strict_option,
@@ -53,6 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser, variants_help="once more for another one, in the same report")
+    add_format_options(parser)
     add_for_option(parser, "report also what this output format cannot hold, once more for another one")
     add_report_options(parser, is_product=True)
     add_strict_option(parser)

@@ -9,6 +9,7 @@ from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.build import Build, BuildRequest, compile_request, render_request
 from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.options import (
+    add_format_options,
     add_spec_and_values,
     add_spec_options,
     packages_of,
@@ -96,6 +97,7 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_options(
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
     )
+    add_format_options(parser)
     add_report_options(parser)
     add_strict_option(parser)
 

@@ -46,6 +46,10 @@ class Sdf(TemplateFormat):
     has_relative_paths = True
     options = (VERSION, MESHES)
 
+    @property
+    def template_folders(self) -> tuple[str, ...]:
+        return ("urdf", self.name)
+
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.sdf.limits import sdf_limits
 
