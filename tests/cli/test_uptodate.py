@@ -108,6 +108,22 @@ def test_each_format_may_go_into_its_own_file(arm: Path):
     assert (arm / "config" / "a.srdf").read_bytes() == (arm / "urdf" / "arm.srdf").read_bytes()
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("-o", "config/joint_limits.yaml", "-o", "config/robot.urdf"),
+        ("--format", "joint_limits", "-o", "config/joint_limits.yaml", "--format", "urdf", "-o", "config/robot.urdf"),
+        ("--format", "joint_limits", "--format", "urdf", "-o", "config/joint_limits.yaml", "-o", "config/robot.urdf"),
+    ],
+)
+def test_each_format_may_go_into_a_file_of_its_bare_name(arm: Path, words: tuple[str, ...]):
+    turning = "type: continuous, axis: z, limits: {effort: 1, velocity: 1}"
+    (arm / "arm.robot.yaml").write_text(SPEC.replace("type: fixed", turning))
+    assert main(["compile", "arm.robot.yaml", *words]) == 0
+    assert '<joint name="turn" type="continuous">' in (arm / "config" / "robot.urdf").read_text()
+    assert "joint_limits:" in (arm / "config" / "joint_limits.yaml").read_text()
+
+
 def test_an_srdf_requested_by_its_name_is_written(arm: Path, capfd: pytest.CaptureFixture[str]):
     (arm / "arm.robot.yaml").write_text(SPEC.partition("semantic")[0])
     assert main(["compile", "arm.robot.yaml", "-o", "a.urdf", "-o", "a.srdf"]) == 1

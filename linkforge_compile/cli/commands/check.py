@@ -23,7 +23,7 @@ from linkforge_compile.cli.reports import (
     write_to_stderr,
 )
 from linkforge_compile.cli.specs import SpecReport, count, find_parts, find_specs_of
-from linkforge_compile.cli.targets import add_for_option
+from linkforge_compile.cli.targets import add_for_option, refuse_formats_as_specs
 
 if TYPE_CHECKING:
     import argparse
@@ -71,6 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.reports import without_repeats
 
     words, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(words, "--for")
     found = find_specs_of(words or ["."], arguments)
     if arguments.all_variants and arguments.variants:
         raise UsageError("takes --variant or --all-variants, not both")

@@ -14,7 +14,14 @@ from linkforge_compile.cli.options import (
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, report
-from linkforge_compile.cli.targets import add_for_option, add_output_option, default_format, name_of, targets_of
+from linkforge_compile.cli.targets import (
+    add_for_option,
+    add_output_option,
+    default_format,
+    name_of,
+    refuse_formats_as_specs,
+    targets_of,
+)
 
 if TYPE_CHECKING:
     import argparse
@@ -55,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(specs, "--for")
     spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
     is_faulty = report(compilation.diagnostics, arguments)
