@@ -108,9 +108,17 @@ def _dumper() -> type[yaml.SafeDumper]:
 
 
 _NOT_PLAIN = re.compile(
-    r"y|n|yes|no|on|off|[-+]?(\.\d+|\d+(\.\d*)?)(e[-+]?\d+)?|0o[0-7]+|0x[0-9a-f]+|[-+]?\.inf|\.nan", re.IGNORECASE
+    r"""y|n|yes|no|on|off
+    |[-+]?(\.\d+|\d+(\.\d*)?)(e[-+]?\d+)?
+    |0o[0-7]+
+    |[-+]?0x[0-9a-f]*\.?[0-9a-f]*(p[-+]?\d+)?
+    |[-+]?\.?(inf|infinity|nan)""",
+    re.IGNORECASE | re.VERBOSE,
 )
-"""Text that a reader of YAML 1.1 or of the core schema of 1.2 takes for a truth or a number."""
+"""Text that a reader of YAML 1.1, of the core schema of 1.2, or ROS 2 takes for a boolean or a number.
+
+ROS 2 reads numbers with `strtoll` and `strtod`, for which `nan`, `infinity` and `0x1p3` are numbers.
+"""
 
 
 def _plain(value: object) -> object:

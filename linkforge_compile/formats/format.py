@@ -97,7 +97,10 @@ class Format(ABC):
     """What it cannot hold of a robot, in one sentence; `limits` reports each such part."""
 
     is_default: bool = False
-    """Whether it is written to a folder, and `check` reports its limits, without being requested."""
+    """Whether it is written to a folder, and `check` reports its limits, if no format is requested."""
+
+    has_urdf: bool = False
+    """Whether a URDF is among its documents, so that what Gazebo makes of a URDF is checked."""
 
     has_relative_paths: bool = False
     """Whether relative paths of meshes in its documents start at the folder of the first document."""

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.srdf import VirtualJointType
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -23,16 +25,50 @@ def actuated_joints(robot: Robot) -> tuple[Joint, ...]:
 
 def joints_by_group(robot: Robot) -> dict[str, tuple[Joint, ...]]:
     """Return the actuated joints of each planning group, from the root to the tips."""
+    actuated = frozenset(joint.name for joint in actuated_joints(robot))
+    by_group = _all_joints_by_group(robot)
+    return {name: tuple(joint for joint in joints if joint.name in actuated) for name, joints in by_group.items()}
+
+
+def chain_groups(robot: Robot) -> frozenset[str]:
+    """Return the names of the groups that are one chain of joints with one position each, as KDL's solver requires.
+
+    As in MoveIt, fixed joints and those that mimic others are members, and between two members are only fixed joints.
+    """
+    if not robot.has_semantic:
+        return frozenset()
+    groups, parents = {group.name: group for group in robot.semantic.groups}, parent_joints(robot.joints)
+    moving = {virtual.name for virtual in robot.semantic.virtual_joints if virtual.type != VirtualJointType.FIXED}
+    actuated, by_group = joints_by_group(robot), _all_joints_by_group(robot)
+    return frozenset(
+        name
+        for name, joints in by_group.items()
+        if actuated[name]
+        and all(joint.type in (*SINGLE, JointType.FIXED) for joint in joints)
+        and all(_precedes(upper, lower, parents) for upper, lower in pairwise(joints))
+        and moving.isdisjoint(_names(name, groups, parents, ()))
+    )
+
+
+def _precedes(upper: Joint, lower: Joint, parents: Mapping[str, Joint]) -> bool:
+    """Whether a joint is above another one, with only fixed joints between them."""
+    above = {child: joint.parent for child, joint in parents.items()}
+    between = (parents[link] for link in walk_up(lower.parent, above) if link in parents)
+    return next((joint for joint in between if joint is upper or joint.type is not JointType.FIXED), None) is upper
+
+
+def _all_joints_by_group(robot: Robot) -> dict[str, tuple[Joint, ...]]:
+    """Return the joints of each planning group, with fixed ones and those that mimic others, the root's first."""
     if not robot.has_semantic:
         return {}
     groups = {group.name: group for group in robot.semantic.groups}
-    parents, actuated = parent_joints(robot.joints), actuated_joints(robot)
+    parents = parent_joints(robot.joints)
     roots = [link.name for link in robot.links if link.name not in parents]
     places = {joint.name: place for place, joint in enumerate(walk_down(roots, child_joints(robot.joints)))}
     by_group = {}
     for name in groups:
         members = frozenset(_names(name, groups, parents, ()))
-        joints = (joint for joint in actuated if joint.name in members)
+        joints = (joint for joint in robot.joints if joint.name in members)
         by_group[name] = tuple(sorted(joints, key=lambda joint: places.get(joint.name, len(places))))
     return by_group
 

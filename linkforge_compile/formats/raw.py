@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -77,6 +77,17 @@ def well_formed_elements(text: str) -> tuple[XmlElement, ...]:
         return elements_of(text)
     except RobotGeneratorError:
         return ()
+
+
+def element_texts(text: str, source: SourceRef | None = None, *path: str | int) -> Iterator[tuple[XmlElement, Xml]]:
+    """Yield each element of raw XML with its text as of `raw_elements`; none where it is not well-formed."""
+    try:
+        root, sections = _parse(text)
+    except RobotGeneratorError:
+        return
+    normalizer = _Normalizer(sections, origins_of_lines(text, source, path))
+    for element in root.children:
+        yield element, Xml(normalizer.element(element))
 
 
 def _parse(text: str) -> tuple[XmlElement, Mapping[int, int]]:

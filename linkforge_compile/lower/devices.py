@@ -23,13 +23,13 @@ from linkforge_compile.core.models.sensor import REQUIRED_INFO, Sensor, SensorTy
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Note
-from linkforge_compile.diagnostics.codes.model import TAG_TWICE
+from linkforge_compile.diagnostics.codes.model import NOT_OF_MANAGER, TAG_TWICE
 from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_element, lower_fields
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_in
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.source.span import Located
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
@@ -132,8 +132,17 @@ def _lower_control(fields: Fields, name: str) -> Ros2Control | None:
 
 
 def _lower_controller(fields: Fields, name: str) -> Controller | None:
-    required = "" if name == MANAGER else "joint_trajectory_controller/JointTrajectoryController"
-    return lower_element(Controller, fields, name=name, type=fields.text("type", required=required))
+    if name == MANAGER:
+        return _lower_manager(fields)
+    type_ = fields.text("type", required="joint_trajectory_controller/JointTrajectoryController")
+    return lower_element(Controller, fields, name=name, type=type_)
+
+
+def _lower_manager(fields: Fields) -> Controller | None:
+    for entry in fields.node:
+        if entry.name != "parameters" and fields.node.get(entry.name) is not None:
+            fields.report(NOT_OF_MANAGER, fields.ref, Key(entry.name), field=entry.name)
+    return lower_element(Controller, fields, name=MANAGER, type=None)
 
 
 def _lower_components(kind: type[Component], fields: Fields, key: str) -> list[Component]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotModelError
+from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.graph import tree_root
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note, UnresolvedNames
@@ -14,6 +15,7 @@ from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEF
 from linkforge_compile.diagnostics.codes.names import MODULES_SHARE_NAMES, NAMES_OF_THIS_FILE, OWN_ATTRIBUTE_STAYS
 from linkforge_compile.expand.instance import Instance, joint_name_of
 from linkforge_compile.lower.file import LoweredFile, unresolved_of
+from linkforge_compile.lower.merge_managers import ManagerMerger
 from linkforge_compile.lower.mount import (
     ModuleJoint,
     attach_mount,
@@ -86,6 +88,7 @@ class ModuleMerger:
         self._parts = dict(_parts(file.robot))
         self._parts.update((("group state", state.key), state.fields.ref) for state in file.states)
         self._owners: dict[PartKey, Instance] = {}
+        self._managers = ManagerMerger(file.robot, sink)
         self._children = {joint.child for joint in file.robot.joints}
         self._mounts = list(file.mounts)
         self._prefix_warnings: list[Diagnostic] = []
@@ -176,6 +179,7 @@ class ModuleMerger:
         added apart, because its parent may be a link of a later module.
         """
         self._report_other_attributes(component, module)
+        self._managers.move(component, module)
         if attached_root is not None and component.has_semantic:
             self._leave_out_virtual_joints(component, attached_root, module.prefix)
         parts = dict(_parts(component))
@@ -277,7 +281,7 @@ def _parts(robot: Robot) -> Iterator[tuple[PartKey, SourceRef | None]]:
         ("sensor", robot.sensors),
         ("transmission", robot.transmissions),
         ("ros2_control", robot.ros2_controls),
-        ("controller", robot.controllers),
+        ("controller", [one for one in robot.controllers if one.name != MANAGER]),
     ):
         for part in parts:
             yield (kind, part.name), part.source

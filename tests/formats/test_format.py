@@ -76,6 +76,50 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
 
 
+OF_GAZEBO = """\
+linkforge: 1
+name: arm
+links:
+  base: {inertial: &body {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+  rod: {inertial: *body}
+  tip:
+joints:
+  rod: {type: fixed, parent: base, child: rod}  # linkforge: ignore LF4108
+  turn: {type: fixed, parent: rod, child: tip, gazebo: {provide_feedback: true}}
+sensors:
+  # linkforge: ignore LF7102
+  force: {type: force_torque, link: rod}
+  # linkforge: ignore LF7412
+  other: {type: force_torque, link: rod}
+"""
+
+
+def codes(words: list[str], capsys: pytest.CaptureFixture[str]) -> set[str]:
+    assert main(words) == 0
+    return set(re.findall(r"\[(LF[0-9]+)\]", capsys.readouterr().err))
+
+
+@pytest.mark.parametrize("words", [["check"], ["check", "--for", "urdf"], ["compile", "-o", "a.urdf"]], ids=" ".join)
+def test_what_gazebo_makes_of_a_urdf_is_reported_where_one_is_written(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+):
+    Path("arm.robot.yaml").write_text(OF_GAZEBO)
+    assert codes([*words, "arm.robot.yaml"], capsys) == {"LF6040", "LF7102"}
+
+
+@pytest.mark.parametrize("words", [["check", "--for", "joints"], ["compile", "-o", "a.joints"]], ids=" ".join)
+def test_other_formats_are_not_blamed_for_a_urdf(words: list[str], capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(OF_GAZEBO)
+    assert codes([*words, "arm.robot.yaml"], capsys) <= {"LF7999"}
+
+
+@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf"])
+def test_formats_of_xml_report_what_no_xml_holds(name: str, capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(SPEC.replace("rod:\n", "rod: {extra: [<broken]}\n"))
+    assert main(["compile", "arm.robot.yaml", "--format", name]) == 1
+    assert "arm.robot.yaml:5:17: error: this cannot be written as XML" in capsys.readouterr().err
+
+
 def test_strict_fails_on_what_it_cannot_hold_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     words = ["compile", "arm.robot.yaml", "-o", "a.joints", "--strict"]
     assert main(words) == 1

@@ -116,6 +116,56 @@ def test_only_a_chain_that_is_no_tool_has_a_solver_by_default():
     assert list(written(f"{ROBOT}semantic: {{groups: {{{groups}}}, {effector}}}\n", "kinematics.yaml")) == ["arm"]
 
 
+ARM = """
+defaults: {joint: {axis: y, limits: {lower: 0, upper: 1, effort: 1, velocity: 1, acceleration: 1}}}
+links:
+  world:
+  base: &link {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+  upper: *link
+  lower: *link
+  hand: *link
+  eye: *link
+  one: *link
+  other: *link
+joints:
+  drive: {type: planar, parent: world, child: base}
+  shoulder: {type: revolute, parent: base, child: upper}
+  elbow: {type: revolute, parent: upper, child: lower}
+  wrist: {type: fixed, parent: lower, child: hand}
+  camera: {type: fixed, parent: lower, child: eye}
+  thumb: {type: revolute, parent: hand, child: one}
+  finger: {type: revolute, parent: hand, child: other, mimic: {joint: thumb}}
+semantic:
+  virtual_joints:
+    fixed_to_map: {type: fixed, parent_frame: map, child_link: world}
+    floating: {type: floating, parent_frame: odom, child_link: world}
+  groups:
+    upper_arm: {joints: [shoulder, elbow]}
+    thumb: {joints: [wrist, thumb]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("group", "is_chain"),
+    [
+        ("joints: [shoulder, elbow]", True),
+        ("joints: [shoulder, elbow, thumb]", True),
+        ("chain: {base_link: base, tip_link: one}", True),
+        ("subgroups: [thumb, upper_arm]", True),
+        ("joints: [shoulder, thumb]", False),
+        ("joints: [thumb, finger]", False),
+        ("joints: [elbow, wrist, camera]", False),
+        ("chain: {base_link: world, tip_link: hand}", False),
+        ("joints: [floating, shoulder]", False),
+        ("joints: [wrist]", False),
+    ],
+)
+def test_the_default_solver_is_for_what_moveit_takes_for_a_chain(group: str, is_chain: bool):
+    """Members follow each other, those that are fixed or mimic another one as well, and have at most one position."""
+    text = f"{ARM}    group: {{{group}}}\n"
+    assert ("group" in written(text, "kinematics.yaml")) is is_chain
+
+
 def test_a_robot_without_chains_has_no_solvers():
     text = f"{ROBOT}semantic: {{groups: {{wheels: {{joints: [left, right]}}}}}}\n"
     assert written(text, "kinematics.yaml") == {}

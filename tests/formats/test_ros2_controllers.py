@@ -11,7 +11,7 @@ from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.export_spec import write_spec
 from linkforge_compile.formats import ROS2_CONTROLLERS, Rendering
 from tests.conftest import ROOT
-from tests.ros_parameters import parameters_in, require_declared
+from tests.ros_parameters import nodes_in, require_declared
 
 CASE = ROOT / "tests" / "cases" / "good" / "planning" / "planning.robot.yaml"
 GOLDEN = CASE.with_name("planning_controllers.yaml")
@@ -98,12 +98,11 @@ def reported(text: str) -> list[str]:
 
 def require_all_declared(text: str) -> None:
     """Hold the parameters of each node against those that its class declares."""
-    nodes = yaml.safe_load(text)
-    manager = nodes.pop("controller_manager")["ros__parameters"]
-    require_declared(parameters_in(yaml.safe_dump(manager)), MANAGER)
-    for name, node in nodes.items():
-        assert list(node) == ["ros__parameters"]
-        require_declared(parameters_in(yaml.safe_dump(node["ros__parameters"])), DECLARED[manager[name]["type"]])
+    nodes = nodes_in(text)
+    manager = nodes.pop("controller_manager")
+    require_declared(manager, MANAGER)
+    for name, parameters in nodes.items():
+        require_declared(parameters, DECLARED[str(manager[f"{name}.type"])])
 
 
 def controller(name: str, text: str) -> dict[str, object]:
@@ -174,6 +173,13 @@ controllers:
     assert controller("base", text)["wheel_separation"] == 0.4
     assert controller("imu", text) == {"sensor_name": "imu", "frame_id": "upper"}
     assert controller("states", text) == {"joints": ["elbow"], "interfaces": ["position"]}
+
+
+@pytest.mark.parametrize("name", ["y", "inf", "NaN", "-Infinity", "NAN", "0x1p3", "0x.8", "1e3", "017"])
+def test_a_joint_whose_name_ros_takes_for_a_number_stays_text(name: str):
+    text = ROBOT.replace("elbow:", f"'{name}':")
+    text += f"controllers: {{own: {{type: a/B, joints: [shoulder, '{name}']}}}}\n"
+    assert nodes_in(rendered(text))["own"] == {"joints": ["shoulder", name]}
 
 
 def test_parameters_of_another_class_keep_their_types():

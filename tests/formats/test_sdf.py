@@ -158,7 +158,7 @@ links:
     assert relative.findtext(".//uri") == "meshes/base.stl"
     assert (capsule.findtext(".//radius"), capsule.findtext(".//length")) == ("1", "2")
     names = [shape.get("name") for shape in (mesh, relative, capsule)]
-    assert names == ["base_visual", "base_visual_2", "base_visual_3"]
+    assert names == ["base_visual", "base_visual_1", "base_visual_2"]
 
 
 def test_meshes_are_files_where_that_is_requested(tmp_path: Path):

@@ -9,7 +9,7 @@ from linkforge_compile import compile_file
 from linkforge_compile.formats import SDF, Rendering
 from linkforge_compile.formats.render import render_urdf
 from tests.conftest import ROOT
-from tests.formats.sdf import compiled, document, read, reported
+from tests.formats.sdf import HEAD, compiled, document, read, reported
 from tests.libsdformat import read_with_libsdformat
 
 LUMPED = """
@@ -113,6 +113,27 @@ def test_contact_settings_are_those_of_each_collision(tmp_path: Path):
         assert (element.findtext("max_contacts"), element.findtext("laser_retro")) == ("4", "7")
 
 
+TWO_TAGS = """
+links: {base: {inertial: *unit}, hand: {inertial: *unit}}
+joints: {turn: {type: continuous, parent: base, child: hand, axis: z}}
+gazebo:
+  - reference: base
+    extra:
+      - <turnGravityOff>true</turnGravityOff><gravity>true</gravity>
+      - <selfCollide>1</selfCollide><self_collide>0</self_collide>
+  - reference: turn
+    extra: <implicitSpringDamper>true</implicitSpringDamper><cfmDamping>false</cfmDamping>
+"""
+
+
+def test_of_two_tags_for_one_element_the_last_is_kept(tmp_path: Path):
+    base = read(TWO_TAGS, tmp_path).links["base"]
+    assert (base["gravity"], base["self_collide"]) == (True, False)
+    model = document(TWO_TAGS)
+    for tag, text in (("gravity", "true"), ("self_collide", "0"), ("implicit_spring_damper", "false")):
+        assert [element.text for element in model.iter(tag)] == [text]
+
+
 def test_a_material_of_gazebo_settings_is_that_of_the_visuals():
     text = """
 links:
@@ -145,3 +166,107 @@ def test_a_force_torque_sensor_without_a_joint_is_reported():
 def test_a_plugin_of_a_link_is_reported():
     text = "links: {base: {inertial: *unit, gazebo: {plugins: {glow: {filename: libglow.so}}}}}"
     assert reported(text) == ["LF7501 SDF has no plugins of links and joints; that of 'glow' is left out"]
+
+
+def test_settings_that_a_frame_cannot_hold_are_reported():
+    """A link without a mass, the joint that holds it, and a floating joint, are frames in SDF."""
+    text = """
+links:
+  base: {inertial: *unit, gazebo: {mu1: 1}}
+  camera: {physics: {self_collide: true, gravity: false, mu: 0.5}, gazebo: {dampingFactor: 0.1}}
+  ball: {inertial: *unit}
+joints:
+  mount: {type: fixed, parent: base, child: camera, gazebo: {preserveFixedJoint: true, springStiffness: 3}}
+  loose: {type: floating, parent: base, child: ball, gazebo: {provide_feedback: true}}
+"""
+    assert reported(text) == [
+        "LF7501 SDF has no place for the setting 'selfCollide' of a frame; that of 'camera' is left out",
+        "LF7501 SDF has no place for the setting 'gravity' of a frame; that of 'camera' is left out",
+        "LF7501 SDF has no place for the setting 'dampingFactor' of a frame; that of 'camera' is left out",
+        "LF7501 SDF has no place for the setting 'springStiffness' of a frame; that of 'mount' is left out",
+        "LF7501 SDF has no place for the setting 'provideFeedback' of a frame; that of 'loose' is left out",
+    ]
+
+
+def test_settings_of_the_world_and_springs_of_fixed_joints_are_reported():
+    text = """
+links: {world: {gazebo: {mu1: 1, extra: "<light name='sun' type='point'/>"}}, base: {inertial: *unit}}
+joints: {weld: {type: fixed, parent: world, child: base, gazebo: {springStiffness: 3, provide_feedback: true}}}
+"""
+    assert reported(text) == [
+        "LF7501 SDF has no place for the setting 'mu1' of the world; that of 'world' is left out",
+        "LF7501 SDF has no place for the setting 'light' of the world; that of 'world' is left out",
+        "LF7501 SDF has no place for the setting 'springStiffness' of a fixed joint; that of 'weld' is left out",
+    ]
+
+
+def test_a_fixed_joint_with_a_raw_sensor_is_kept(tmp_path: Path):
+    text = """
+links: {base: {inertial: *unit}, hand: }
+joints:
+  wrist: {type: fixed, parent: base, child: hand, gazebo: {extra: "<sensor name='wrench' type='force_torque'/>"}}
+"""
+    joint = read(text, tmp_path).joints["wrist"]
+    assert (joint["type"], [sensor["name"] for sensor in joint["sensors"]]) == ("fixed", ["wrench"])
+
+
+RAW_SENSORS = """
+links:
+  base: {inertial: *unit}
+  mast:
+    gazebo:
+      extra:
+        - <sensor name="a" type="imu"/>
+        - <sensor name="b" type="imu"><topic>/b</topic><pose>1 0 0 0 0 0</pose></sensor>
+        - <sensor name="c" type="imu"><pose relative_to="base">1 0 0 0 0 0</pose></sensor>
+  top: {gazebo: {properties: {sensor: [{_name: d, _type: imu, pose: 0 1 0 0 0 0}, {_name: e, _type: imu}]}}}
+joints:
+  up: {type: fixed, parent: base, child: mast, origin: {xyz: [0, 0, 1], rpy: [0, 0, 90 deg]}}
+  higher: {type: fixed, parent: mast, child: top, origin: [0, 0, 1]}
+gazebo:
+  - {reference: top, extra: "<sensor name='f' type='altimeter'/>"}
+  - {reference: top, extra: "<sensor name='g' type='altimeter'/>"}
+"""
+
+
+def test_raw_sensors_on_links_without_mass_are_where_the_frame_is(tmp_path: Path):
+    assert reported(RAW_SENSORS) == []
+    found = read(RAW_SENSORS, tmp_path)
+    assert list(found.links) == ["base"]
+    positions = {sensor["name"]: sensor["pose"][:3] for sensor in found.links["base"]["sensors"]}
+    assert positions == {
+        "a": pytest.approx([0, 0, 1]),
+        "b": pytest.approx([0, 1, 1]),
+        "c": pytest.approx([1, 0, 0]),
+        "d": pytest.approx([-1, 0, 2]),
+        "e": pytest.approx([0, 0, 2]),
+        "f": pytest.approx([0, 0, 2]),
+        "g": pytest.approx([0, 0, 2]),
+    }
+
+
+def test_a_source_map_has_each_line_of_raw_xml():
+    text = """
+links:
+  base: {inertial: *unit}
+  mast:
+    gazebo:
+      extra: |
+        <sensor name="imu" type="imu">
+          <topic>/imu</topic>
+        </sensor>
+joints: {up: {type: fixed, parent: base, child: mast}}
+gazebo:
+  extra: |
+    <plugin name="glow" filename="libglow.so">
+      <rate>5</rate>
+    </plugin>
+"""
+    result = SDF.render(compiled(text), Rendering(has_map=True))[0]
+    assert result.map is not None
+    lines = result.text.splitlines()
+    spec = (HEAD + text).splitlines()
+    for word in ("<topic>", "<rate>"):
+        place = result.map.at(next(number for number, line in enumerate(lines, 1) if word in line))
+        assert place is not None
+        assert word in spec[place.span.line - 1]

@@ -149,7 +149,27 @@ def test_a_removed_builtin_template_is_reported(folder: Path, capsys: pytest.Cap
 
 
 @pytest.mark.parametrize(
-    "text", ["y", "N", "Yes", "off", "1e5", "-1E+5", "0o17", "0x1F", ".5", "1.", "+.inf", ".NaN", "012", "1_0", "null"]
+    "text",
+    [
+        "y",
+        "N",
+        "Yes",
+        "off",
+        "1e5",
+        "-1E+5",
+        "0o17",
+        "0x1F",
+        ".5",
+        "1.",
+        "+.inf",
+        ".NaN",
+        "inf",
+        "nan",
+        "0x1.8p3",
+        "012",
+        "1_0",
+        "null",
+    ],
 )
 def test_yaml_quotes_what_a_reader_may_take_for_something_else(text: str):
     assert own_environment().from_string("{{ text | to_yaml }}").render(text=text) in (f"'{text}'", f'"{text}"')

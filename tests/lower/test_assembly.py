@@ -265,3 +265,26 @@ def test_a_virtual_joint_of_a_module_that_hangs_is_left_out_with_a_note():
 def test_a_virtual_joint_of_the_base_stays():
     robot: Robot = robot_of(Spec("name: body\nmodules: {leg: {}}", {"leg": Spec(STANDING)}))
     assert names(robot.semantic.virtual_joints) == ["leg_ground"]
+
+
+DRIVER = Spec(
+    """
+    name: driver
+    links: {shoulder: }
+    controllers: {controller_manager: {parameters: {update_rate: 500, lock_memory: true}}}
+    """
+)
+
+
+def test_a_robot_has_one_manager_of_controllers_with_what_its_modules_agree_on():
+    modules = "modules: {left: {parent: base}, right: {parent: base}}"
+    robot = robot_of(Spec(f"name: cell\nlinks: {{base: }}\n{modules}", {"left": DRIVER, "right": DRIVER}))
+    (manager,) = robot.controllers
+    assert manager.parameters == {"update_rate": 500, "lock_memory": True}
+
+
+def test_what_a_file_states_of_the_manager_wins_over_its_modules():
+    own = "controllers: {controller_manager: {parameters: {update_rate: 100, cpu_affinity: 2}}}"
+    spec = Spec(f"name: cell\nlinks: {{base: }}\nmodules: {{left: {{parent: base}}}}\n{own}", {"left": DRIVER})
+    (manager,) = robot_of(spec).controllers
+    assert manager.parameters == {"update_rate": 100, "cpu_affinity": 2, "lock_memory": True}

@@ -193,6 +193,19 @@ FREE_IN_SDF = Code(
 MESH_STAYS_A_URI = Code(
     "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
 )
+RENAMED_SHAPE_IN_SDF = Code(
+    "LF7509",
+    Severity.NOTE,
+    "the shapes and sensors of a link share their names in SDF, so {shape} '{old}' of '{link}' is '{name}' there",
+    subject="link",
+    grouped_by=("shape", "old"),
+)
+TAKEN_IN_SDF = Code("LF7510", _E, "Gazebo refuses two parts of '{owner}' with the name '{name}'; rename one of them")
+NO_COLLISION_IN_SDF = Code(
+    "LF7511",
+    _W,
+    "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
+)
 
 # LF76xx: control and planning
 NO_LIMIT_FOR_MOVEIT = Code(

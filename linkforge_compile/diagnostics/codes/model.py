@@ -78,6 +78,7 @@ PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '
 UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it has {states}")
 STATE_CYCLE = Code("LF5306", _E, "group states take their values from each other in a cycle: {path}")
 STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
+NOT_OF_MANAGER = Code("LF5308", _E, "'controller_manager' has `parameters` alone; remove '{field}'")
 
 MOUNT_SAYS_ENDS = Code(
     "LF5321", _E, "{owner} is a mount and must not set '{field}'; the file that uses this one sets it"

@@ -26,6 +26,12 @@ LINK_AND_JOINT = Code(
     "LF4108", _W, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
 )
 SHARED_TOPIC = Code("LF4109", _W, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
+MODULES_DISAGREE = Code(
+    "LF4111",
+    _E,
+    "modules '{first}' and '{second}' have different values of '{parameter}' in 'controller_manager'; "
+    "write the right one in `controllers` of this file",
+)
 NAME_TWICE = Code("LF4160", _W, "'{name}' is listed twice in '{field}' of {owner}; remove one")
 OWN_ATTRIBUTE_STAYS = Code(
     "LF4161", _W, "{what} is '{theirs}' in module '{module}' and '{ours}' here; this file's value is kept"

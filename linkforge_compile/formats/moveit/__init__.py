@@ -50,6 +50,7 @@ class MoveIt(Format):
         "are the package's own"
     )
     has_relative_paths = True
+    has_urdf = True
     options = Urdf.options
 
     @property
@@ -65,7 +66,7 @@ class MoveIt(Format):
         from linkforge_compile.formats.moveit.collisions import check_adjacent_links
         from linkforge_compile.formats.moveit.limits import check_execution
 
-        others = (one.limits(robot, options) for one in _WHOLE_FILES.values() if not one.is_default)
+        others = (one.limits(robot, options) for one in _WHOLE_FILES.values())
         return chain(*others, check_execution(robot), check_adjacent_links(robot))
 
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from itertools import pairwise
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.formats.element import placed
-from linkforge_compile.formats.groups import joints_by_group
+from linkforge_compile.formats.groups import chain_groups
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
 from linkforge_compile.formats.ros2_controllers.kinds import EFFORT_GRIPPER, GRIPPER, OLD_GRIPPER, TRAJECTORY
 from linkforge_compile.formats.source_map import origin_of
@@ -54,10 +52,10 @@ def moveit_view(robot: Robot) -> View:
 
 def _groups(robot: Robot) -> Iterator[View]:
     """Yield the groups with a solver: those that state one, and those that are one chain and no end effector."""
-    joints, parents = joints_by_group(robot), parent_joints(robot.joints)
-    tools = {effector.group for effector in robot.semantic.end_effectors} if joints else frozenset[str]()
-    for group in robot.semantic.groups if joints else ():
-        is_arm = group.name not in tools and _is_chain(joints[group.name], parents)
+    chains = chain_groups(robot)
+    tools = {effector.group for effector in robot.semantic.end_effectors} if chains else frozenset[str]()
+    for group in robot.semantic.groups if robot.has_semantic else ():
+        is_arm = group.name in chains and group.name not in tools
         if is_arm or group.kinematics:
             yield View(name=placed(group.name, group.source), parameters=dict(_solver(group)))
 
@@ -67,12 +65,6 @@ def _solver(group: PlanningGroup) -> Iterator[tuple[str, object]]:
         is_whole = isinstance(value, int) and not isinstance(value, bool)
         number = float(value) if is_whole and name in _DECIMALS else value
         yield placed(name, group.source, "kinematics", name), number
-
-
-def _is_chain(joints: tuple[Joint, ...], parents: Mapping[str, Joint]) -> bool:
-    """Whether each joint, from the root to the tip, is below the one before it."""
-    above = {child: joint.parent for child, joint in parents.items()}
-    return bool(joints) and all(upper.child in walk_up(lower.parent, above) for upper, lower in pairwise(joints))
 
 
 def executing_controllers(robot: Robot) -> tuple[Controller, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -11,7 +11,7 @@ from linkforge_compile.core.models.graph import child_joints, parent_joints
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.sensor import SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD
-from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, settings_by_reference
+from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, settings_by_reference
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
@@ -81,6 +81,15 @@ class Layout:
             bodies |= dict.fromkeys(trail, bodies.get(link, link))
         return bodies
 
+    @cached_property
+    def held(self) -> Mapping[str, Sequence[Link]]:
+        """The links that each body holds: itself, and its frames."""
+        held: dict[str, list[Link]] = {}
+        for link in self.robot.links:
+            if not self.is_world(link.name):
+                held.setdefault(self.body_of(link.name), []).append(link)
+        return held
+
     def is_joint(self, joint: Joint) -> bool:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
         if joint.type == JointType.FIXED:
@@ -118,11 +127,14 @@ def _has_mass(link: Link) -> bool:
 
 def _links_that_need_bodies(robot: Robot) -> set[str]:
     """Return the links that cannot be frames: a force is sensed in their joint, or they have elements of a body."""
-    settings = settings_by_reference(robot)
-    with_elements = {
-        name for name, found in settings.items() if name and any(one.tag in LINK_ELEMENTS for one in found)
-    }
-    return with_elements | {one.link_name for one in robot.sensors if one.type == SensorType.FORCE_TORQUE}
+    needed = {one.link_name for one in robot.sensors if one.type == SensorType.FORCE_TORQUE}
+    for name, settings in settings_by_reference(robot).items():
+        tags = {one.tag for one in settings}
+        if name and robot.has_link(name):
+            needed |= {name} if tags & LINK_ELEMENTS - OF_FRAME else set()
+        elif name and robot.has_joint(name) and "sensor" in tags:
+            needed.add(robot.joints[name].child)
+    return needed
 
 
 def _carrier(link: str, robot: Robot, below: Mapping[str, list[Joint]], bodies: set[str]) -> str | None:

@@ -2,76 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.gazebo import GazeboElement
-from linkforge_compile.core.models.geometry import Mesh, Transform
-from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import Ros2Control
-from linkforge_compile.core.models.sensor import Sensor, SensorType
-from linkforge_compile.core.models.transmission import Transmission
 from linkforge_compile.diagnostics.codes.formats import (
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
     MESH_STAYS_A_URI,
     NO_MIMIC_IN_SDF,
     NOT_IN_SDF,
-    RENAMED_IN_SDF,
-    RESERVED_IN_SDF,
     WEIGHTLESS_IN_SDF,
 )
-from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.limits import check_attributes, check_texts
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+from linkforge_compile.formats.sdf.check_names import check_names
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
+from linkforge_compile.formats.sdf.losses import lost_parts
 from linkforge_compile.formats.sdf.meshes import MeshUris
-from linkforge_compile.formats.sdf.settings import lost_settings, settings_by_reference
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
-from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
 
-Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str | int, ...]]
-"""What SDF has no place for, the name of the part, and where it was written."""
 
-
-_NESTED = "::"
-"""Between the names of a nested model and of a part of it."""
-
-
-def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
-    """Yield what is left out or changed in the SDF of a robot, and what Gazebo refuses."""
+def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> Iterator[Diagnostic]:
+    """Yield what `render` leaves out, changes or refuses in the SDF of a robot, and what Gazebo refuses."""
+    doubtful = doubtful_parts_of_urdf(robot)
+    yield from check_texts(robot, doubtful)
+    yield from check_attributes(doubtful.with_extras, robot, render)
     layout = Layout.of(robot)
     yield from check_names(robot, layout)
     yield from check_bodies(robot, layout)
     yield from check_joints(robot, has_mimic=sdf_version(robot, choices) == WITH_MIMIC)
     if choices.has_files:
         yield from check_files(robot)
-    for parts, name, source, path in _losses(robot, layout):
+    for parts, name, source, path in lost_parts(robot, layout):
         yield NOT_IN_SDF.at(source, *path, parts=parts, name=name)
-
-
-def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
-    """Links, joints and frames of a model share their names; SDF has `world`, `__…__` and `…::…` for itself."""
-    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
-    for part in parts:
-        is_world = isinstance(part, Link) and layout.is_world(part.name)
-        if not is_world and (part.name == WORLD or (part.name.startswith("__") and part.name.endswith("__"))):
-            yield RESERVED_IN_SDF.at(part.source, name=part.name)
-    for sensor in robot.sensors:
-        if _NESTED in sensor.name:
-            yield RESERVED_IN_SDF.at(sensor.source, name=sensor.name)
-    for settings in settings_by_reference(robot).values():
-        for setting in settings:
-            if setting.tag != "plugin" and (name := next((one for one in setting.names if _NESTED in one), None)):
-                yield RESERVED_IN_SDF.at(setting.source, *setting.path, name=name)
-    for joint in robot.joints:
-        if (name := layout.joint_names[joint.name]) != joint.name:
-            yield RENAMED_IN_SDF.at(joint.source, joint=joint.name, name=name)
 
 
 def check_bodies(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
@@ -100,56 +70,3 @@ def check_files(robot: Robot) -> Iterator[Diagnostic]:
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
             yield MESH_STAYS_A_URI.at(mesh.source, "file", file=mesh.resource)
-
-
-def _losses(robot: Robot, layout: Layout) -> Iterator[Loss]:
-    yield from _losses_of_world(robot, layout)
-    for joint in robot.joints:
-        limits = joint.limits
-        if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
-            yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
-        if joint.safety_controller:
-            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
-        if joint.calibration:
-            yield "calibrations", joint.name, joint.source, ("calibration",)
-    for transmission in robot.transmissions:
-        yield "transmissions", transmission.name, transmission.source, ()
-    for sensor in robot.sensors:
-        above = layout.above.get(sensor.link_name)
-        if sensor.type == SensorType.FORCE_TORQUE and not (above and layout.is_joint(above)):
-            yield "force-torque sensors without a joint", sensor.name, sensor.source, ("link",)
-    for reference, setting in lost_settings(robot):
-        yield f"place for the setting '{setting.tag}'", reference or robot.name, setting.source, setting.path
-    for block in robot.gazebo_elements:
-        if block.reference is not None:
-            for plugin in block.plugins:
-                yield "plugins of links and joints", plugin.name, plugin.source, ()
-    yield from _lost_xml(robot)
-
-
-def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:
-    for link in robot.links:
-        if not layout.is_world(link.name):
-            continue
-        if link.inertial:
-            yield "mass of the world", link.name, link.source, ("inertial",)
-        if link.shapes:
-            yield "shapes of the world", link.name, link.source, ("visual" if link.visuals else "collision",)
-        for sensor in robot.sensors:
-            if sensor.link_name == link.name:
-                yield "sensors on the world", sensor.name, sensor.source, ("link",)
-
-
-def _lost_xml(robot: Robot) -> Iterator[Loss]:
-    if robot.extra_elements:
-        yield "raw XML of a URDF", robot.name, robot.source, ("extra",)
-    for held in doubtful_parts_of_urdf(robot).with_extras:
-        around = (*held.around, held.part)
-        if isinstance(held.part, Transform) or any(isinstance(part, _NOT_RAW_URDF) for part in around):
-            continue
-        owner = next((part for part in around if getattr(part, "name", None)), None)
-        yield "raw XML of a URDF", getattr(owner, "name", robot.name), held.where, ()
-
-
-_NOT_RAW_URDF = (Sensor, GazeboElement, Ros2Control, Transmission)
-"""What is SDF with all that is in it, is read from the URDF, or is reported as a whole."""

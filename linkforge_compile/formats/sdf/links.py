@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
-from linkforge_compile.core.models.link import Collision, Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link, Visual
 from linkforge_compile.core.moments import possible_inertia, principal_moments
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.part_names import NamedShape, PartNames
+from linkforge_compile.formats.sdf.raw_sensors import sensor_elements
 from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
-from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
@@ -30,38 +31,38 @@ class Links:
 
     def __init__(self, robot: Robot, layout: Layout, settings: Mapping[str | None, Settings], uris: MeshUris) -> None:
         self._layout, self._settings, self._uris = layout, settings, uris
-        self._held: dict[str, list[Link]] = {}
-        for link in robot.links:
-            if not layout.is_world(link.name):
-                self._held.setdefault(layout.body_of(link.name), []).append(link)
+        self.names = PartNames(layout, settings)
 
     def view(self, link: Link, sensors: Mapping[str, list[View]]) -> View:
         """Return a link with the shapes and sensors of all that it holds; `sensors` are those of each link."""
-        joint, held = self._layout.above.get(link.name), self._held[link.name]
-        taken: set[str] = set()
+        joint, held = self._layout.above.get(link.name), self._layout.held[link.name]
         return View(
             attributes=attributes_at(link.source, name=link.name),
             pose=pose_of_frame(self._layout.joint_names[joint.name] if joint else None),
             inertial=inertial_element(link, is_weightless=link.name in self._layout.weightless),
-            settings=link_elements(self._settings.get(link.name, ())),
-            visuals=[self._visual(each, one, link, taken) for one in held for each in one.visuals],
-            collisions=[self._collision(each, one, link, taken) for one in held for each in one.collisions],
+            settings=self._settings_of(link, held),
+            visuals=[self._visual(each, link) for one in held for each in self.names.visuals[one.name]],
+            collisions=[self._collision(each, link) for one in held for each in self.names.collisions[one.name]],
             sensors=[sensor for one in held for sensor in sensors.get(one.name, ())],
         )
 
-    def _visual(self, visual: Visual, link: Link, body: Link, taken: set[str]) -> Xml:
-        of_gazebo = shape_elements("visual", self._settings.get(link.name, ()))
+    def _settings_of(self, link: Link, held: Iterable[Link]) -> Xml:
+        of_gazebo = self._settings.get(link.name, ())
+        sensors = (sensor_elements(self._settings.get(one.name, ()), one, link, self.names) for one in held)
+        return Xml("".join([link_elements(of_gazebo), *sensors]))
+
+    def _visual(self, named: NamedShape, body: Link) -> Xml:
+        of_gazebo = shape_elements("visual", self._settings.get(named.link.name, ()))
+        own = named.shape.material if isinstance(named.shape, Visual) else None
         # A material of Gazebo's settings is in place of that of the visual.
-        has_material = visual.material and "<material" not in of_gazebo
-        material = self._material(visual.material) if visual.material and has_material else NOTHING
-        return self._shape(visual, link, body, taken, Xml(material + of_gazebo))
+        material = self._material(own) if own and "<material" not in of_gazebo else NOTHING
+        return self._shape(named, body, Xml(material + of_gazebo))
 
-    def _collision(self, collision: Collision, link: Link, body: Link, taken: set[str]) -> Xml:
-        return self._shape(collision, link, body, taken, collision_elements(self._settings.get(link.name, ())))
+    def _collision(self, named: NamedShape, body: Link) -> Xml:
+        return self._shape(named, body, collision_elements(self._settings.get(named.link.name, ())))
 
-    def _shape(self, shape: Visual | Collision, link: Link, body: Link, taken: set[str], rest: Xml) -> Xml:
-        name = unique_name(shape.name or f"{link.name}_{shape.TAG}", taken)
-        taken.add(name)
+    def _shape(self, named: NamedShape, body: Link, rest: Xml) -> Xml:
+        link, shape, name = named
         origin = pose(shape.origin, relative_to=None if link is body else link.name)
         geometry = parent("geometry", self._geometry(shape.geometry))
         return Xml(f"<{shape.TAG}{attributes_at(shape.source, name=name)}>{origin}{geometry}{rest}</{shape.TAG}>")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.fields import tags_with_text
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.formats.element import parameter_elements, raw_texts
-from linkforge_compile.formats.raw import plain_text, well_formed_elements
+from linkforge_compile.formats.raw import element_texts, plain_text, well_formed_elements
 from linkforge_compile.formats.sdf.elements import parent, text
 from linkforge_compile.formats.xml_text import NOTHING, Xml, spelled
 
@@ -19,24 +19,34 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.part import FreePart
     from linkforge_compile.source import SourceRef
+    from linkforge_compile.source.xml_tree import XmlElement
 
 
 class Setting(NamedTuple):
-    """A tag of Gazebo, or an element of SDF, for a part of the robot, and where it was written."""
+    """A tag of Gazebo, or an element of SDF, for a part of the robot, and where it was written.
+
+    `raw` is the element of raw XML, of which `value` is the text.
+    """
 
     tag: str
     value: FreePart
     source: SourceRef | None
     path: FieldPath
-    is_raw: bool = False
+    raw: XmlElement | None = None
+
+    @property
+    def xml(self) -> Xml:
+        """The elements of this tag."""
+        if self.raw and isinstance(self.value, str):
+            return Xml(self.value)
+        return parameter_elements({self.tag: self.value}, self.source, *self.path[:-1])
 
     @property
     def words(self) -> str | None:
         """The text of a tag, or its attribute `value`, which Gazebo reads first; None for several of one tag."""
         value = self.value
-        if self.is_raw and isinstance(value, str):
-            (element,) = well_formed_elements(value)
-            value = element.get("value") or element.text
+        if self.raw:
+            value = self.raw.get("value") or self.raw.text
         elif isinstance(value, Mapping):
             value = value.get("_value", value.get("_text", ""))
         return value.strip() if isinstance(value, str) else None
@@ -44,8 +54,8 @@ class Setting(NamedTuple):
     @property
     def names(self) -> Sequence[str]:
         """The attributes `name` of the elements of this tag."""
-        if self.is_raw and isinstance(self.value, str):
-            return [element.get("name") or "" for element in well_formed_elements(self.value)]
+        if self.raw:
+            return [self.raw.get("name") or ""]
         parts = [self.value] if isinstance(self.value, str | Mapping) else self.value
         return [str(part.get("_name", "")) for part in parts if isinstance(part, Mapping)]
 
@@ -54,19 +64,24 @@ Settings: TypeAlias = Sequence[Setting]
 
 
 def settings_by_reference(robot: Robot) -> Mapping[str | None, Settings]:
-    """Return the settings of links, joints, and under None of the robot itself; of two with one tag, the last."""
+    """Return the settings of links, joints, and under None of the robot itself; of two for one element, the last."""
     found: dict[str | None, dict[str, Setting]] = defaultdict(dict)
     for link in robot.links:
         for name, tag in PHYSICS_TAGS.items():
             if link.physics.is_written(name):
                 value = spelled(getattr(link.physics, name))
-                found[link.name][tag] = Setting(tag, value, link.physics.source, (name,))
+                _add(Setting(tag, value, link.physics.source, (name,)), found[link.name])
     for block in robot.gazebo_elements:
         for setting in _settings_of(block):
-            # Each raw text is one of its own, whatever its tag.
-            key = "/".join(map(str, (setting.tag, *setting.path))) if setting.is_raw else setting.tag
-            found[block.reference][key] = setting
+            _add(setting, found[block.reference])
     return {reference: tuple(settings.values()) for reference, settings in found.items()}
+
+
+def _add(setting: Setting, found: dict[str, Setting]) -> None:
+    """Add a setting, in place of another one for the same element of SDF."""
+    key = f"{setting.tag} {len(found)}" if setting.tag in _SEVERAL else _SAME_ELEMENT.get(setting.tag, setting.tag)
+    found.pop(key, None)
+    found[key] = setting
 
 
 def _settings_of(block: GazeboElement) -> Iterator[Setting]:
@@ -78,8 +93,8 @@ def _settings_of(block: GazeboElement) -> Iterator[Setting]:
     for tag, value in block.properties.items():
         yield Setting(tag, value, block.source, (tag,) if own and own.child(tag) else ("properties", tag))
     for raw, source, path in raw_texts(block, block.source):
-        for number, element in enumerate(well_formed_elements(raw)):
-            yield Setting(element.tag, plain_text(element), source, (*path, number), is_raw=True)
+        for element, xml in element_texts(raw, source, *path):
+            yield Setting(element.tag, xml, source, path, element)
 
 
 _FIELD_TAGS = tags_with_text(GazeboElement)
@@ -89,7 +104,7 @@ LINK_ELEMENTS = frozenset(
 )
 """Elements of SDF that are copied into a link as they are."""
 
-_MODEL_ELEMENTS = frozenset(
+OF_MODEL = frozenset(
     ("plugin", "gripper", "frame", "joint", "link", "model", "include", "static", "self_collide", "allow_auto_disable")
 )
 
@@ -115,46 +130,43 @@ _JOINT_ODE = {
 _OF_SHAPES = ("visual", "collision")
 """Tags whose children are added to each shape of a link."""
 
-_KNOWN_OF_LINKS = frozenset(
-    (*LINK_ELEMENTS, *_LINK_FLAGS, *_FRICTION, *_CONTACT, *_COLLISION, *_OF_SHAPES, "turnGravityOff", "dampingFactor")
-)
-_KNOWN_OF_JOINTS = frozenset((*_SPRING, *_JOINT_LIMIT, *_JOINT_ODE, "provideFeedback", "sensor", *KEEP_FIXED_JOINT))
+_SEVERAL = LINK_ELEMENTS | OF_MODEL - {"static", "self_collide", "allow_auto_disable"}
+"""Tags of which a part may have several."""
 
+_SAME_ELEMENT = {"turnGravityOff": "gravity", "selfCollide": "self_collide", "cfmDamping": "implicitSpringDamper"}
+"""Tags that are about the element of another tag."""
 
-def lost_settings(robot: Robot) -> Iterator[tuple[str | None, Setting]]:
-    """Yield the settings that SDF, or Gazebo Sim, has no place for, each with the name of its link or joint."""
-    for reference, settings in settings_by_reference(robot).items():
-        if reference is None:
-            known = _MODEL_ELEMENTS
-        else:
-            known = _KNOWN_OF_LINKS if robot.has_link(reference) else _KNOWN_OF_JOINTS
-        yield from ((reference, one) for one in settings if one.tag not in known)
+OF_FRAME = frozenset(("sensor", *_FRICTION, *_CONTACT, *_COLLISION, *_OF_SHAPES))
+OF_BODY = OF_FRAME | LINK_ELEMENTS | _LINK_FLAGS.keys() | {"turnGravityOff", "dampingFactor"}
+OF_FIXED_JOINT = frozenset((*_JOINT_LIMIT, *_JOINT_ODE, "provideFeedback", "sensor", *KEEP_FIXED_JOINT))
+OF_JOINT = OF_FIXED_JOINT | _SPRING.keys()
+"""The tags that each kind of part holds in SDF."""
 
 
 def model_elements(settings: Settings) -> Xml:
     """Return the settings of the robot itself."""
-    return _copied(settings, _MODEL_ELEMENTS)
+    return _elements_with(OF_MODEL, settings)
 
 
 def link_elements(settings: Settings) -> Xml:
-    """Return the settings of a link that are elements of the link itself."""
+    """Return the settings of a link that are elements of the link itself, but for sensors."""
     by_tag = _by_tag(settings)
-    flags = [_as(tag, by_tag.get(name)) for name, tag in _LINK_FLAGS.items()]
+    flags = [_tag_for(tag, by_tag.get(name)) for name, tag in _LINK_FLAGS.items()]
     if off := by_tag.get("turnGravityOff"):
         is_on = (off.words or "").lower() in ("false", "no", "0")
         flags.append(text("gravity", is_on, off.source, *off.path))
     damping = by_tag.get("dampingFactor")
-    decay = parent("velocity_decay", _as("linear", damping), _as("angular", damping))
-    return Xml("".join([*flags, decay, _copied(settings, LINK_ELEMENTS)]))
+    decay = parent("velocity_decay", _tag_for("linear", damping), _tag_for("angular", damping))
+    return Xml("".join([*flags, decay, _elements_with(LINK_ELEMENTS - {"sensor"}, settings)]))
 
 
 def collision_elements(settings: Settings) -> Xml:
     """Return the settings of a link that are elements of each of its collisions."""
     by_tag = _by_tag(settings)
-    friction = parent("friction", parent("ode", *_all(by_tag, _FRICTION)))
-    contact = parent("contact", parent("ode", *_all(by_tag, _CONTACT)))
+    friction = parent("friction", parent("ode", *_tags_for(by_tag, _FRICTION)))
+    contact = parent("contact", parent("ode", *_tags_for(by_tag, _CONTACT)))
     surface = parent("surface", contact, friction)
-    return Xml("".join([*_all(by_tag, _COLLISION), surface, shape_elements("collision", settings)]))
+    return Xml("".join([*_tags_for(by_tag, _COLLISION), surface, shape_elements("collision", settings)]))
 
 
 def shape_elements(tag: str, settings: Settings) -> Xml:
@@ -162,47 +174,39 @@ def shape_elements(tag: str, settings: Settings) -> Xml:
     setting = _by_tag(settings).get(tag)
     if setting is None:
         return NOTHING
+    if setting.raw:
+        return Xml("".join(plain_text(child) for one in well_formed_elements(setting.xml) for child in one.children))
     content = setting.value
-    if setting.is_raw and isinstance(content, str):
-        return Xml(
-            "".join(plain_text(child) for element in well_formed_elements(content) for child in element.children)
-        )
     return parameter_elements(content, setting.source, *setting.path) if isinstance(content, Mapping) else NOTHING
 
 
 def joint_physics(settings: Settings) -> Xml:
     """Return the settings of a joint for its physics, and its sensors that are SDF already."""
     by_tag = _by_tag(settings)
-    limit = parent("limit", *_all(by_tag, _JOINT_LIMIT))
-    ode = parent("ode", *_all(by_tag, _JOINT_ODE), limit)
-    physics = parent("physics", _as("provide_feedback", by_tag.get("provideFeedback")), ode)
-    return Xml(physics + _copied(settings, frozenset(("sensor",))))
+    limit = parent("limit", *_tags_for(by_tag, _JOINT_LIMIT))
+    ode = parent("ode", *_tags_for(by_tag, _JOINT_ODE), limit)
+    physics = parent("physics", _tag_for("provide_feedback", by_tag.get("provideFeedback")), ode)
+    return Xml(physics + _elements_with({"sensor"}, settings))
 
 
 def spring_elements(settings: Settings) -> Sequence[Xml]:
     """Return the settings of a joint for its dynamics."""
-    return _all(_by_tag(settings), _SPRING)
+    return _tags_for(_by_tag(settings), _SPRING)
 
 
 def _by_tag(settings: Settings) -> Mapping[str, Setting]:
     return {one.tag: one for one in settings}
 
 
-def _all(by_tag: Mapping[str, Setting], tags: Mapping[str, str]) -> list[Xml]:
-    return [_as(tag, by_tag.get(name)) for name, tag in tags.items()]
+def _tags_for(by_tag: Mapping[str, Setting], tags: Mapping[str, str]) -> list[Xml]:
+    return [_tag_for(tag, by_tag.get(name)) for name, tag in tags.items()]
 
 
-def _as(tag: str, setting: Setting | None) -> Xml:
+def _tag_for(tag: str, setting: Setting | None) -> Xml:
     """Return a setting under the tag of SDF; nothing for none."""
     return text(tag, setting.words, setting.source, *setting.path) if setting else NOTHING
 
 
-def _copied(settings: Settings, tags: frozenset[str]) -> Xml:
-    """Return the settings that are elements of SDF already."""
-    return Xml("".join(_element(one) for one in settings if one.tag in tags))
-
-
-def _element(setting: Setting) -> Xml:
-    if setting.is_raw and isinstance(setting.value, str):
-        return Xml(setting.value)
-    return parameter_elements({setting.tag: setting.value}, setting.source, *setting.path[:-1])
+def _elements_with(tags: Set[str], settings: Settings) -> Xml:
+    """Return the settings that are elements of SDF with these tags."""
+    return Xml("".join(one.xml for one in settings if one.tag in tags))

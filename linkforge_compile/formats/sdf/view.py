@@ -7,12 +7,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.sensor import Sensor, SensorType
-from linkforge_compile.formats.element import attributes_at
+from linkforge_compile.formats.element import attributes_at, placed
 from linkforge_compile.formats.sdf.elements import pose
 from linkforge_compile.formats.sdf.joints import frame_elements, joint_view
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import Links
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.part_names import PartNames
 from linkforge_compile.formats.sdf.settings import model_elements, settings_by_reference
 from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
@@ -44,7 +45,7 @@ def robot_view(robot: Robot, choices: SdfChoices) -> View:
     """Return what templates see of a robot in SDF."""
     layout, settings, version = Layout.of(robot), settings_by_reference(robot), sdf_version(robot, choices)
     links = Links(robot, layout, settings, MeshUris(robot, is_resolved=choices.has_files))
-    on_links, in_joints = _sensors(robot, layout)
+    on_links, in_joints = _sensors(robot, layout, links.names)
     return View(
         version=version,
         attributes=attributes_at(robot.source, "name", name=robot.name, canonical_link=layout.canonical_link()),
@@ -71,22 +72,28 @@ def robot_view(robot: Robot, choices: SdfChoices) -> View:
     )
 
 
-def _sensors(robot: Robot, layout: Layout) -> tuple[Mapping[str, list[View]], Mapping[str, list[View]]]:
+def _sensors(
+    robot: Robot, layout: Layout, names: PartNames
+) -> tuple[Mapping[str, list[View]], Mapping[str, list[View]]]:
     """Return the sensors of each link, and those of each joint, which has the frame of the link below it."""
     on_links: dict[str, list[View]] = defaultdict(list)
     in_joints: dict[str, list[View]] = defaultdict(list)
     views = UrdfViews(robot, None, "gz")
     for sensor in robot.sensors:
         if sensor.type != SensorType.FORCE_TORQUE:
-            on_links[sensor.link_name].append(_sensor(sensor, views, layout))
+            on_links[sensor.link_name].append(_sensor(sensor, views, layout, names))
         elif joint := layout.above.get(sensor.link_name):
-            in_joints[joint.name].append(_sensor(sensor, views, layout))
+            in_joints[joint.name].append(_sensor(sensor, views, layout, names))
     return on_links, in_joints
 
 
-def _sensor(sensor: Sensor, views: UrdfViews, layout: Layout) -> View:
+def _sensor(sensor: Sensor, views: UrdfViews, layout: Layout, names: PartNames) -> View:
     """Return a sensor as in a URDF for Gazebo Sim, which is SDF, where it is exactly."""
     view = sensor_view(views, sensor, layout.robot, "gz")
     is_on_frame = sensor.link_name in layout.frames
     view.pose = pose(sensor.origin, relative_to=sensor.link_name if is_on_frame else None)
+    contact = sensor.contact_info
+    if contact and view.info:
+        name = names.collision(sensor.link_name, contact.collision) or contact.collision
+        view.info.collision = placed(name, contact.source, "collision")
     return view

@@ -1,0 +1,109 @@
+"""The parts and settings of a robot that SDF, or Gazebo Sim, has no place for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Set
+from typing import TYPE_CHECKING, TypeAlias
+
+from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
+from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.ros2_control import Ros2Control
+from linkforge_compile.core.models.sensor import Sensor, SensorType
+from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+from linkforge_compile.formats.sdf.layout import Layout
+from linkforge_compile.formats.sdf.settings import (
+    OF_BODY,
+    OF_FIXED_JOINT,
+    OF_FRAME,
+    OF_JOINT,
+    OF_MODEL,
+    settings_by_reference,
+)
+from linkforge_compile.source import SourceRef
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str | int, ...]]
+"""What SDF has no place for, the name of the part, and where it was written."""
+
+
+def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
+    """Yield each part that is left out, under the words for its kind."""
+    yield from _losses_of_world(robot, layout)
+    for joint in robot.joints:
+        limits = joint.limits
+        if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
+            yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
+        if joint.safety_controller:
+            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
+        if joint.calibration:
+            yield "calibrations", joint.name, joint.source, ("calibration",)
+    for transmission in robot.transmissions:
+        yield "transmissions", transmission.name, transmission.source, ()
+    for sensor in robot.sensors:
+        above = layout.above.get(sensor.link_name)
+        if sensor.type == SensorType.FORCE_TORQUE and not (above and layout.is_joint(above)):
+            yield "force-torque sensors without a joint", sensor.name, sensor.source, ("link",)
+    yield from _lost_settings(robot, layout)
+    for block in robot.gazebo_elements:
+        if block.reference is not None:
+            for plugin in block.plugins:
+                yield "plugins of links and joints", plugin.name, plugin.source, ()
+    yield from _lost_xml(robot)
+
+
+def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:
+    for link in robot.links:
+        if not layout.is_world(link.name):
+            continue
+        if link.inertial:
+            yield "mass of the world", link.name, link.source, ("inertial",)
+        if link.shapes:
+            yield "shapes of the world", link.name, link.source, ("visual" if link.visuals else "collision",)
+        for sensor in robot.sensors:
+            if sensor.link_name == link.name:
+                yield "sensors on the world", sensor.name, sensor.source, ("link",)
+
+
+def _lost_settings(robot: Robot, layout: Layout) -> Iterator[Loss]:
+    for reference, settings in settings_by_reference(robot).items():
+        held, where = _held_settings(reference, robot, layout)
+        for setting in settings:
+            if setting.tag not in held:
+                is_held_elsewhere = setting.tag in OF_BODY | OF_JOINT
+                parts = f"place for the setting '{setting.tag}'{where if is_held_elsewhere else ''}"
+                yield parts, reference or robot.name, setting.source, setting.path
+
+
+def _held_settings(reference: str | None, robot: Robot, layout: Layout) -> tuple[Set[str], str]:
+    """Return the tags that a part holds in SDF, and words for what it is there if it holds fewer than others."""
+    if reference is None:
+        return OF_MODEL, ""
+    if robot.has_link(reference):
+        if layout.is_world(reference):
+            return frozenset(), " of the world"
+        return (OF_FRAME, " of a frame") if reference in layout.frames else (OF_BODY, "")
+    if not robot.has_joint(reference):
+        return frozenset(), ""
+    joint = robot.joints[reference]
+    if not layout.is_joint(joint):
+        return frozenset(KEEP_FIXED_JOINT if joint.type == JointType.FIXED else ()), " of a frame"
+    return (OF_FIXED_JOINT, " of a fixed joint") if joint.type == JointType.FIXED else (OF_JOINT, "")
+
+
+def _lost_xml(robot: Robot) -> Iterator[Loss]:
+    if robot.extra_elements:
+        yield "raw XML of a URDF", robot.name, robot.source, ("extra",)
+    for held in doubtful_parts_of_urdf(robot).with_extras:
+        around = (*held.around, held.part)
+        if isinstance(held.part, Transform) or any(isinstance(part, _NOT_RAW_URDF) for part in around):
+            continue
+        owner = next((part for part in around if getattr(part, "name", None)), None)
+        yield "raw XML of a URDF", getattr(owner, "name", robot.name), held.where, ()
+
+
+_NOT_RAW_URDF = (Sensor, GazeboElement, Ros2Control, Transmission)
+"""What is SDF with all that is in it, is read from the URDF, or is reported as a whole."""
