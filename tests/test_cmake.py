@@ -210,9 +210,9 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
         ("BASE loose", "BASE takes fixed or free, found 'loose'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
-        ("FORMATS INSTALL", "nothing is said behind FORMATS"),
+        ("FORMATS INSTALL", "no value comes after FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
-        ("DESTINATION urdf", "DESTINATION is of INSTALL, which is not there"),
+        ("DESTINATION urdf", "DESTINATION needs INSTALL"),
         ("PACKAGES arm", "PACKAGES takes NAME=FOLDER, found 'arm'"),
         ("PACKAGES arm=nowhere", "PACKAGES arm=nowhere: there is no folder '"),
         (
@@ -291,7 +291,7 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     lines = build.stdout.splitlines()
     assert lines[lines.index("-p") : lines.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
-        *("--variant", "sim", "--gazebo", "classic", "--installed-in", str(tmp_path / "robots")),
+        *("--variant", "sim", "--gazebo", "classic", "--installed-in", f"urdf={tmp_path / 'robots'}"),
         *("--format", "urdf"),
     ]
 
@@ -431,6 +431,16 @@ def test_wrong_arguments_of_several_robots_are_reported_when_cmake_configures(
     )
     assert run.returncode != 0
     assert message in " ".join(run.stderr.split())
+
+
+def test_meshes_are_looked_for_from_the_folder_of_each_format(tmp_path: Path):
+    add = "linkforge_add_robot(arm.robot.yaml FORMATS urdf srdf sdf INSTALL)"
+    run = script(tmp_path, f"{FIND}\n{add}", f"-DLINKFORGE_EXECUTABLE={program('linkforge')}")
+    assert (run.returncode, run.stderr) == (0, "")
+    rules = "".join(path.read_text() for path in (tmp_path / "b").rglob("build.make"))
+    for format_ in ("urdf", "sdf"):
+        assert f"--installed-in {format_}={tmp_path / format_} " in rules
+    assert "--installed-in srdf" not in rules
 
 
 @pytest.mark.parametrize("generator", ["Unix Makefiles", "Ninja"])

@@ -8,6 +8,7 @@ import stat
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO, NoReturn
 
 from linkforge_compile.cli import UsageError
@@ -181,7 +182,7 @@ def compile_spec(
     assignments: list[str],
     arguments: argparse.Namespace,
     *,
-    folders: Mapping[str, Path] | None = None,
+    folders: Mapping[str, Path] = MappingProxyType({}),
     text: str | None = None,
     formats: tuple[str, ...] = (),
     variant: str | None = None,
@@ -194,7 +195,7 @@ def compile_spec(
     """
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = settings_of(assignments, arguments)._replace(folders=folders or {}, formats=formats)
+    settings = settings_of(assignments, arguments)._replace(folders=folders, formats=formats)
     settings = settings if variant is None else settings._replace(variant=variant)
     if spec == "-" or text is not None:
         text = read_stdin() if text is None else text

@@ -50,16 +50,23 @@ class Targets(NamedTuple):
             path / file for name, path in written.items() for file in formats.format_named(name).files or ("",)
         )
 
-    def folders(self, installed_in: str | None) -> dict[str, Path]:
+    def folders(self, installed_in: Sequence[str]) -> Mapping[str, Path]:
         """Return the folders where relative paths in the documents start, by format, as far as they are known.
 
-        `installed_in` is the final folder of the first format with such paths; that of the others is not known then.
+        `installed_in` has the final folder of all of them, or `FORMAT=FOLDER`.
         """
-        with_paths = [one for one in map(formats.format_named, self.formats) if one.has_relative_paths]
-        targets = {one.name: path for one in with_paths if (path := self.paths[one.name])}
-        if installed_in is not None:
-            targets = {one.name: Path(installed_in, "" if one.files else "NAME") for one in with_paths[:1]}
-        return {name: formats.format_named(name).folder_of_documents(path) for name, path in targets.items()}
+        finals: dict[str, Path] = {}
+        names = [one.name for one in formats.FORMATS]
+        for word in installed_in:
+            name, equals, folder = word.partition("=")
+            is_of_one = bool(equals) and name in names
+            finals |= {name: Path(folder)} if is_of_one else dict.fromkeys(names, Path(word)) | finals
+        folders = {}
+        for one in map(formats.format_named, self.formats):
+            path = Path(finals[one.name], "" if one.files else "NAME") if one.name in finals else self.paths[one.name]
+            if path and one.has_relative_paths:
+                folders[one.name] = one.folder_of_documents(path)
+        return folders
 
     def without(self, names: Collection[str]) -> Targets:
         paths = {name: path for name, path in self.paths.items() if name not in names}

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import stat
 import subprocess
 import sys
@@ -173,6 +174,29 @@ def test_relative_meshes_are_reported_where_a_format_has_them_at_its_own_folder(
     assert f'meshdir="{pendulum}"' in (pendulum / "build" / "rod.mjcf").read_text()
     assert reported("-o", "build/rod.sdf") == [of_urdf.replace("URDF", "SDF")]
     assert reported("-o", "build/rod.sdf", "--meshes", "file") == []
+
+
+@pytest.mark.parametrize(
+    ("installed", "misplaced"),
+    [
+        (["urdf=urdf", "sdf=sdf"], {"sdf": "SDF"}),
+        (["sdf=sdf", "urdf"], {"sdf": "SDF"}),
+        (["urdf=sdf", "sdf=urdf"], {"sdf": "URDF"}),
+        (["sdf"], {"sdf": "URDF"}),
+        ([], {"a": "URDF", "b": "SDF"}),
+    ],
+)
+def test_each_format_is_installed_in_its_folder(pendulum: Path, installed: list[str], misplaced: dict[str, str]):
+    """LF7006."""
+    for folder in (pendulum, pendulum / "urdf"):
+        folder.mkdir(exist_ok=True)
+        (folder / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    spec = "linkforge: 1\nname: rod\nlinks: {rod: {visual: {mesh: rod.stl}, collision: visual}}\n"
+    (pendulum / "rod.robot.yaml").write_text(spec)
+    options = [word for folder in installed for word in ("--installed-in", folder)]
+    run = linkforge("compile", "rod.robot.yaml", "-o", "a/r.urdf", "-o", "b/r.sdf", *options, cwd=pendulum)
+    found = re.findall(r"cannot be found from '(\w+)', the (\w+)'s folder", run.stderr)
+    assert dict(found) == misplaced
 
 
 def test_meshes_of_a_spec_on_standard_input_are_looked_for_from_the_output_folder(pendulum: Path):

@@ -92,8 +92,11 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--installed-in",
-        metavar="FOLDER",
-        help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
+        metavar="[FORMAT=]FOLDER",
+        action="append",
+        default=[],
+        help="the final folder of the outputs, from which relative paths of meshes start (default: that of -o); once "
+        "more for that of another format, such as sdf=share/arm/sdf",
     )
     add_spec_options(
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
