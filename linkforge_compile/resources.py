@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import cache
 from pathlib import Path
 
@@ -25,10 +26,11 @@ def templates_folder() -> Path:
     return data_folder() / "templates"
 
 
-def format_templates() -> list[Path]:
-    """Return the templates of all formats, sorted: all but those of `linkforge init`."""
+def format_templates(formats: Collection[str] = ()) -> list[Path]:
+    """Return the templates of formats, sorted, those of all for none: all but those of `linkforge init`."""
     folder = templates_folder()
-    return [path for path in sorted(folder.rglob("*.j2")) if path.relative_to(folder).parts[0] != "init"]
+    by_format = ((path.relative_to(folder).parts[0], path) for path in sorted(folder.rglob("*.j2")))
+    return [path for name, path in by_format if (name in formats if formats else name != "init")]
 
 
 def compiled_templates_folder() -> Path:
@@ -36,9 +38,9 @@ def compiled_templates_folder() -> Path:
     return _packed() / "compiled_templates"
 
 
-def compiler_files() -> tuple[Path, ...]:
-    """Return the files of linkforge on which its output depends: the templates and the version."""
-    return (*format_templates(), Path(__file__).with_name("_version.py"))
+def compiler_files(formats: Collection[str] = ()) -> tuple[Path, ...]:
+    """Return the files of linkforge on which its output depends: the templates of formats and the version."""
+    return (*format_templates(formats), Path(__file__).with_name("_version.py"))
 
 
 def manual_folder() -> Path:

@@ -40,7 +40,8 @@ class Output(NamedTuple):
 class Build(NamedTuple):
     """The outputs of one spec in a variant (None: the defaults), the files that they were made from, and diagnostics.
 
-    There are no outputs if one of them cannot be made.
+    There are no outputs if one of them cannot be made. `template_folders` are those of linkforge's templates that were
+    rendered, empty for all: a user's templates may include any.
     """
 
     spec: str
@@ -48,6 +49,7 @@ class Build(NamedTuple):
     outputs: tuple[Output, ...]
     sources: tuple[Path, ...]
     diagnostics: tuple[Diagnostic, ...]
+    template_folders: frozenset[str]
 
 
 class BuildRequest(NamedTuple):
@@ -95,7 +97,8 @@ def render_request(request: BuildRequest, compilation: Compilation, arguments: a
         diagnostics = tuple(sorted((*diagnostics, *faults), key=lambda one: one.order))
     stale = tuple(_find_stale(outputs, request, compilation.robot)) if arguments.check else ()
     sources = (*compilation.files, *request.template_files)
-    return Build(request.spec, request.variant, outputs, sources, (*diagnostics, *stale))
+    folders = frozenset[str]() if request.templates else request.targets.template_folders
+    return Build(request.spec, request.variant, outputs, sources, (*diagnostics, *stale), folders)
 
 
 def _render(

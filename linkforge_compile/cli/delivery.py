@@ -17,6 +17,9 @@ from linkforge_compile.diagnostics import Diagnostic
 if TYPE_CHECKING:
     import argparse
 
+_LISTED = 3
+"""The most files up to date of which each has a line."""
+
 
 def deliver(builds: Sequence[Build], arguments: argparse.Namespace, faults: tuple[Diagnostic, ...] = ()) -> int:
     """Report on builds, write the outputs of those without errors, and return the exit code.
@@ -62,11 +65,18 @@ def _print_status(
     diagnostics: tuple[Diagnostic, ...],
     arguments: argparse.Namespace,
 ) -> None:
-    """Print a line for each file of a single build, one summary of several."""
+    """Print a line for each file of a single build, one summary of several builds or of many files up to date."""
     paths = [output.path for build in right for output in build.outputs if output.path is not None]
     if len(builds) == 1:
+        unchanged = [path for path in paths if path not in written]
+        is_short = len(unchanged) <= _LISTED
         for path in paths:
-            print_status(f"wrote {path}" if path in written else f"{path} is up to date", arguments)
+            if path in written:
+                print_status(f"wrote {path}", arguments)
+            elif is_short:
+                print_status(f"{path} is up to date", arguments)
+        if not is_short:
+            print_status(f"{count(len(unchanged), 'file')} are up to date", arguments)
         return
     from linkforge_compile.diagnostics.render_text import summary
 
@@ -101,8 +111,8 @@ def _depfile(builds: Sequence[Build], name: str) -> tuple[Output, ...]:
     """Return the depfile, with a rule for the outputs of each spec."""
     from linkforge_compile.cli.output import inputs_of, make_rules
 
-    rules = (
-        make_rules([output.path for output in build.outputs if output.path is not None], inputs_of(build.sources))
-        for build in builds
-    )
-    return (Output(file_to_write(name), "".join(rules)),)
+    def rule(build: Build) -> str:
+        paths = [output.path for output in build.outputs if output.path is not None]
+        return make_rules(paths, inputs_of(build.sources, build.template_folders))
+
+    return (Output(file_to_write(name), "".join(map(rule, builds))),)

@@ -17,6 +17,7 @@ from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_fact
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
+    from linkforge_compile.formats import Format
     from linkforge_compile.pipeline import Compilation, Settings
 
 STDIN = "<stdin>"
@@ -86,7 +87,11 @@ def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = ""
         parser.add_argument("--variant", metavar="NAME", help=about)
     add_package_option(parser)
     add_outside_option(parser)
-    for option in declared_options():
+
+
+def add_format_options(parser: argparse.ArgumentParser, formats: Sequence[Format] | None = None) -> None:
+    """Add the options that formats declare, all for None, for commands that render them or check their limits."""
+    for option in declared_options() if formats is None else (option for one in formats for option in one.options):
         if option.is_flag:
             name, (off, on) = f"--{option.name}", option.choices
             parser.add_argument(name, action="store_const", const=on, default=off, help=option.help)
@@ -95,8 +100,8 @@ def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = ""
 
 
 def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
-    """Return the values of the options that output formats declare."""
-    return {option.name: getattr(arguments, option.name) for option in declared_options()}
+    """Return the values of the options that output formats declare; the defaults for a command without them."""
+    return {option.name: getattr(arguments, option.name, option.default) for option in declared_options()}
 
 
 def add_parameter_option(parser: argparse.ArgumentParser, description: str) -> None:

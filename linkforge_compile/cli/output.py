@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from errno import EBUSY, EISDIR
 from itertools import takewhile
@@ -211,11 +211,14 @@ _UNWRITABLE = re.compile(r"[\n\r;|\ud800-\udfff]")
 _UNWRITABLE_IN_TARGETS = re.compile(r"[\n\r;|=%\ud800-\udfff]")
 
 
-def inputs_of(files: Iterable[Path]) -> tuple[Path, ...]:
-    """Return the files on which an output depends: those that were read, and those of linkforge itself."""
+def inputs_of(files: Iterable[Path], template_folders: Collection[str]) -> tuple[Path, ...]:
+    """Return the files on which an output depends: those that were read, and those of linkforge itself.
+
+    `template_folders` are those of linkforge's templates that are rendered, empty for all.
+    """
     from linkforge_compile.resources import compiler_files
 
-    return tuple(dict.fromkeys((*files, *compiler_files())))
+    return tuple(dict.fromkeys((*files, *compiler_files(template_folders))))
 
 
 def make_rules(outputs: Iterable[Path], inputs: Sequence[Path]) -> str:

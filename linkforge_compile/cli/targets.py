@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
@@ -34,6 +34,11 @@ class Targets(NamedTuple):
     def formats(self) -> tuple[str, ...]:
         """The names of the formats."""
         return () if self.are_documents else tuple(self.paths)
+
+    @property
+    def template_folders(self) -> frozenset[str]:
+        """The folders of the templates that linkforge has for the formats."""
+        return frozenset(folder for name in self.formats for folder in formats.format_named(name).template_folders)
 
     @property
     def files(self) -> tuple[Path, ...]:
@@ -77,23 +82,41 @@ class Targets(NamedTuple):
 
 def add_target_options(parser: argparse.ArgumentParser) -> None:
     add_output_option(parser)
-    names = [one.name for one in formats.FORMATS]
     about = "; ".join(f"{one.name}: {one.description}" for one in formats.FORMATS)
-    parser.add_argument(
-        "--format",
-        choices=names,
-        dest="formats",
-        action="append",
-        default=[],
-        help=f"only this one, once more for another one (default on standard output: {names[0]}); {about}",
+    default = default_format().name
+    _add_formats(
+        parser, "--format", f"only this one, once more for another one (default on standard output: {default}); {about}"
     )
     parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: that of the spec)")
 
 
 def add_for_option(parser: argparse.ArgumentParser, about: str) -> None:
     """Add `--for`, the formats of a command whose `--format` is the form of what it prints."""
-    names = [one.name for one in formats.FORMATS]
-    parser.add_argument("--for", choices=names, dest="formats", action="append", default=[], help=about)
+    _add_formats(parser, "--for", about)
+
+
+def _add_formats(parser: argparse.ArgumentParser, option: str, about: str) -> None:
+    # With `choices`, the message for any other name would have no suggestion.
+    names = f"{{{','.join(one.name for one in formats.FORMATS)}}}"
+    parser.add_argument(
+        option, type=_name_of_format, metavar=names, dest="formats", action="append", default=[], help=about
+    )
+
+
+def _name_of_format(word: str) -> str:
+    try:
+        return formats.format_named(word).name
+    except ValueError as error:
+        from argparse import ArgumentTypeError
+
+        raise ArgumentTypeError(str(error)) from None
+
+
+def refuse_formats_as_specs(words: Iterable[str], option: str) -> None:
+    """Refuse the name of a format among the specs, as `--format urdf srdf` gives it; a file may have such a name."""
+    names = {one.name for one in formats.FORMATS}
+    if word := next((word for word in words if word in names and not Path(word).exists()), None):
+        raise UsageError(f"{option} takes one format, once more for another one: write '{option} {word}'")
 
 
 def add_output_option(parser: argparse.ArgumentParser) -> None:
@@ -119,6 +142,8 @@ def targets_of(name: str, outputs: Sequence[str], chosen: Sequence[str] = ()) ->
         raise UsageError("-o takes a file or a folder, found '': is a variable of the shell empty?")
     if not outputs or (len(outputs) == 1 and file_to_write(outputs[0]) is None):
         return Targets({_only(chosen) or default_format().name: None})
+    if len(outputs) > 1 and len(outputs) == len(set(chosen)):
+        return Targets({name: _several([output], name)[name] for name, output in zip(chosen, outputs, strict=True)})
     if len(outputs) > 1:
         return Targets(_several(outputs, _only(chosen)))
     (output,) = outputs
@@ -139,7 +164,7 @@ def is_folder_of_outputs(output: str, chosen: Sequence[str] = ()) -> bool:
 def _only(chosen: Sequence[str]) -> str | None:
     """Return the one format of `--format`, None for none; UsageError for several."""
     if len(set(chosen)) > 1:
-        raise UsageError(f"several --format go with -o FOLDER/, found {' and '.join(chosen)}")
+        raise UsageError(f"several --format go with -o FOLDER/, or with -o FILE for each; found {' and '.join(chosen)}")
     return chosen[0] if chosen else None
 
 
@@ -224,8 +249,11 @@ def _file_endings(chosen: Sequence[str] = ()) -> tuple[str, ...]:
 
 
 def format_by_suffix(output: str) -> str | None:
-    """Return the name of the format of one file whose suffix ends the name of an output, None for no such format."""
-    found = [suffix for suffix in _suffixes() if output.endswith(suffix)]
+    """Return the name of the format of one file whose suffix ends the name of an output, None for no such format.
+
+    The suffix alone names a file too: `joint_limits.yaml` is that of `_joint_limits.yaml`.
+    """
+    found = [suffix for suffix in _suffixes() if output.endswith(suffix) or Path(output).name == suffix.lstrip("_")]
     return _suffixes()[max(found, key=len)] if found else None
 
 
@@ -245,7 +273,7 @@ def _is_file(output: str, endings: tuple[str, ...]) -> bool:
     path = Path(output)
     if output.endswith(("/", "\\")) or path.is_dir():
         return False
-    if path.suffix and not path.name.endswith(endings):
+    if path.suffix and not path.name.endswith(endings) and format_by_suffix(output) is None:
         raise UsageError(
             f"-o takes a folder, or a file that ends in {alternatives(endings)}; found '{output}'"
             f" (for a folder of that name, write '{output}/')"

@@ -114,6 +114,11 @@ class Format(ABC):
 
     options: tuple[Option, ...] = ()
 
+    @property
+    def template_folders(self) -> tuple[str, ...]:
+        """The folders of the templates that it renders."""
+        return (self.name,)
+
     @abstractmethod
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
         """Return the documents of a robot.

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile.cli.main import COMMANDS, main
+from linkforge_compile.formats import declared_options
 from tests.cli.in_process import linkforge
 
 SPEC = "linkforge: 1\nname: arm\nlinks: {base: }\n"
@@ -57,3 +59,12 @@ def test_names_of_files_are_the_same_in_the_locale_c(tmp_path: Path):
         }
         assert outputs["C"] == outputs["UTF-8"]
         assert f"from {name}.robot.yaml" in outputs["C"].decode()
+
+
+def test_options_of_formats_are_those_of_commands_on_which_they_have_an_effect(capfd: pytest.CaptureFixture[str]):
+    names = {f"--{option.name}" for option in declared_options()}
+    for command in COMMANDS:
+        with pytest.raises(SystemExit):
+            main([command, "--help"])
+        shown = names.intersection(capfd.readouterr().out.split())
+        assert shown == {"compile": names, "watch": names, "check": names, "diff": {"--gazebo"}}.get(command, set())

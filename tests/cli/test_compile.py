@@ -494,7 +494,15 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("compile", "a.robot.yaml", "-o", ""), "-o takes a file or a folder, found '': is a variable of the shell"),
         (("compile", "swing.robot.yaml", "--package", "arm"), "--package takes NAME=PATH"),
         (("compile", "swing.robot.yaml", "--package", "arm=nowhere"), "there is no folder 'nowhere'"),
-        (("compile", "swing.robot.yaml", "--format", "usd"), "invalid choice"),
+        (("compile", "swing.robot.yaml", "--format", "usd"), "there is no format 'usd'; there are urdf, srdf, "),
+        (("compile", "swing.robot.yaml", "--format", "movit"), "there is no format 'movit'; did you mean 'moveit'?"),
+        (("check", "--for", "mjfc"), "there is no format 'mjfc'; did you mean 'mjcf'?"),
+        (
+            ("compile", "swing.robot.yaml", "-o", ".", "--format", "urdf", "srdf"),
+            "--format takes one format, once more for another one: write '--format srdf'",
+        ),
+        (("check", "--for", "sdf", "mjcf"), "once more for another one: write '--for mjcf'"),
+        (("deps", "swing.robot.yaml", "--for", "sdf", "mjcf"), "write '--for mjcf'"),
         (
             ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
             "--format srdf does not go into 'a.urdf'",

@@ -10,6 +10,7 @@ import pytest
 from linkforge_compile.cli.main import main
 from linkforge_compile.cli.output import refuse_to_replace
 from linkforge_compile.cli.targets import name_of
+from linkforge_compile.resources import templates_folder
 from tests.meshes import block, save
 from tests.programs import program
 
@@ -64,6 +65,31 @@ def test_every_file_that_a_robot_is_made_from_is_listed_and_no_other(cell: Path,
     assert {"robot.xml.j2", "link.xml.j2", "_version.py"} <= names
     assert "CMakeLists.txt.j2" not in names, "that is of init"
     assert all(Path(path).is_file() for path in found["linkforge"])
+
+
+@pytest.mark.parametrize(
+    ("words", "folders"),
+    [
+        ((), {"urdf"}),
+        (("--for", "mjcf"), {"mjcf"}),
+        (("-o", "cell.sdf"), {"sdf", "urdf"}),
+        (("--for", "moveit"), {"moveit", "urdf", "srdf", "joint_limits", "ros2_controllers"}),
+        (("--for", "srdf", "--for", "joint_limits"), {"srdf", "joint_limits"}),
+    ],
+)
+def test_linkforges_own_templates_are_those_of_the_formats(
+    cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], folders: set[str]
+):
+    templates = (Path(path) for path in listed(capfd, "cell.robot.yaml", *words)["linkforge"])
+    found = {path.relative_to(templates_folder()).parts[0] for path in templates if path.suffix == ".j2"}
+    assert found == folders
+
+
+def test_a_depfile_names_the_templates_of_its_outputs(cell: Path, capfd: pytest.CaptureFixture[str]):
+    assert main(["compile", "cell.robot.yaml", "-o", "cell.mjcf", "--depfile", "-"]) == 0
+    rule = capfd.readouterr().out
+    assert "mjcf/body.xml.j2" in rule
+    assert "urdf/link.xml.j2" not in rule
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name != "cell.robot.yaml"] + ["die.stl"])

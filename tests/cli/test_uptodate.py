@@ -37,6 +37,21 @@ def test_files_that_are_up_to_date_pass(arm: Path, capfd: pytest.CaptureFixture[
     assert capfd.readouterr().err == "urdf/arm.urdf is up to date\nurdf/arm.srdf is up to date\n"
 
 
+def test_many_files_that_are_up_to_date_are_counted(arm: Path, capfd: pytest.CaptureFixture[str]):
+    words = ["compile", "arm.robot.yaml", "-o", ".", *(f"--format={one}" for one in ("urdf", "srdf", "sdf", "mjcf"))]
+    assert main(words) == 0
+    (arm / "arm.sdf").unlink()
+    capfd.readouterr()
+    assert main(words) == 0
+    assert capfd.readouterr().err.splitlines()[-4:] == [
+        *(f"{name} is up to date" for name in ("arm.urdf", "arm.srdf")),
+        "wrote arm.sdf",
+        "arm.mjcf is up to date",
+    ]
+    assert main(words) == 0
+    assert capfd.readouterr().err.splitlines()[-1] == "4 files are up to date"
+
+
 def test_a_changed_spec_is_reported_at_the_first_different_line(arm: Path, capfd: pytest.CaptureFixture[str]):
     before = (arm / "urdf" / "arm.urdf").read_bytes()
     line = before.decode().splitlines().index('        <box size="0.5 1 1"/>') + 1
@@ -91,6 +106,22 @@ def test_each_format_may_go_into_its_own_file(arm: Path):
     assert main(words) == 0
     assert (arm / "robots" / "a.urdf").read_bytes() == (arm / "urdf" / "arm.urdf").read_bytes()
     assert (arm / "config" / "a.srdf").read_bytes() == (arm / "urdf" / "arm.srdf").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("-o", "config/joint_limits.yaml", "-o", "config/robot.urdf"),
+        ("--format", "joint_limits", "-o", "config/joint_limits.yaml", "--format", "urdf", "-o", "config/robot.urdf"),
+        ("--format", "joint_limits", "--format", "urdf", "-o", "config/joint_limits.yaml", "-o", "config/robot.urdf"),
+    ],
+)
+def test_each_format_may_go_into_a_file_of_its_bare_name(arm: Path, words: tuple[str, ...]):
+    turning = "type: continuous, axis: z, limits: {effort: 1, velocity: 1}"
+    (arm / "arm.robot.yaml").write_text(SPEC.replace("type: fixed", turning))
+    assert main(["compile", "arm.robot.yaml", *words]) == 0
+    assert '<joint name="turn" type="continuous">' in (arm / "config" / "robot.urdf").read_text()
+    assert "joint_limits:" in (arm / "config" / "joint_limits.yaml").read_text()
 
 
 def test_an_srdf_requested_by_its_name_is_written(arm: Path, capfd: pytest.CaptureFixture[str]):

@@ -158,3 +158,8 @@ def test_a_map_is_not_called_computed(tmp_path: Path):
     assert "computed: {" not in linkforge("where", f"build/arm.urdf:{number}", cwd=tmp_path).stdout
     value = f"build/arm.urdf:{number}:{line.index('upper=') + 1}"
     assert "computed: $(half)" in linkforge("where", value, cwd=tmp_path).stdout
+
+
+def test_names_that_contain_the_word_are_listed(build: Path):
+    run = linkforge("where", "build/cell.urdf", "elb", cwd=build)
+    assert run.stderr == "linkforge where: there is no 'elb' in build/cell.urdf; there is 'left_elbow'\n"

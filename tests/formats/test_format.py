@@ -11,7 +11,8 @@ from linkforge_compile.cli import INTERRUPTED
 from linkforge_compile.cli.commands import watch
 from linkforge_compile.cli.main import main
 from linkforge_compile.formats.environment import xml_endings
-from linkforge_compile.formats.format import TemplateFormat
+from linkforge_compile.formats.format import Format, TemplateFormat
+from linkforge_compile.resources import format_templates
 from tests.conftest import ROOT
 from tests.formats.example_formats import Folder, Joints, Limits
 
@@ -268,3 +269,10 @@ def test_templates_of_documents_that_are_xml_are_those_of_formats_of_xml():
     assert set(xml_endings()) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
     page = (ROOT / "docs/templates.md").read_text("utf-8")
     assert all(f"`NAME{ending}`" in page for ending in xml_endings())
+
+
+@pytest.mark.parametrize("one", formats.FORMATS, ids=lambda one: one.name)
+def test_the_templates_of_a_format_include_no_others(one: Format):
+    for path in format_templates(one.template_folders):
+        included = re.findall(r'"([a-z0-9_]+)/[^"]*"', path.read_text("utf-8"))
+        assert set(included) <= set(one.template_folders), path

@@ -7,7 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.options import add_spec_options, check_settings_of, check_spec, split_assignments
+from linkforge_compile.cli.options import (
+    add_format_options,
+    add_spec_options,
+    check_settings_of,
+    check_spec,
+    split_assignments,
+)
 from linkforge_compile.cli.reports import (
     add_report_options,
     add_strict_option,
@@ -17,7 +23,7 @@ from linkforge_compile.cli.reports import (
     write_to_stderr,
 )
 from linkforge_compile.cli.specs import SpecReport, count, find_parts, find_specs_of
-from linkforge_compile.cli.targets import add_for_option
+from linkforge_compile.cli.targets import add_for_option, refuse_formats_as_specs
 
 if TYPE_CHECKING:
     import argparse
@@ -53,6 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser, variants_help="once more for another one, in the same report")
+    add_format_options(parser)
     add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
     add_report_options(parser, is_product=True)
     add_strict_option(parser)
@@ -64,6 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.diagnostics.reports import without_repeats
 
     words, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(words, "--for")
     found = find_specs_of(words or ["."], arguments)
     if arguments.all_variants and arguments.variants:
         raise UsageError("takes --variant or --all-variants, not both")

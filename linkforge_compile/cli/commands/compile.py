@@ -9,6 +9,7 @@ from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.build import Build, BuildRequest, compile_request, render_request
 from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.options import (
+    add_format_options,
     add_spec_and_values,
     add_spec_options,
     packages_of,
@@ -22,6 +23,7 @@ from linkforge_compile.cli.targets import (
     add_target_options,
     is_folder_of_outputs,
     name_of,
+    refuse_formats_as_specs,
     targets_of,
     targets_of_documents,
 )
@@ -99,12 +101,14 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     add_spec_options(
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
     )
+    add_format_options(parser)
     add_report_options(parser)
     add_strict_option(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     words, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(words, "--format")
     arguments.variants = list(dict.fromkeys(arguments.variants))
     if len(words) == 1 and not is_folder(words[0]) and len(arguments.variants) < 2:
         request = parse_request(arguments)
@@ -120,6 +124,7 @@ def run(arguments: argparse.Namespace) -> int:
 def parse_request(arguments: argparse.Namespace) -> BuildRequest:
     """Return what to build of one spec; UsageError for options that contradict each other."""
     specs, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(specs, "--format")
     if len(arguments.variants) > 1:
         raise UsageError(f"--variant may be given once, found {' and '.join(arguments.variants)}")
     variant = next(iter(arguments.variants), None)

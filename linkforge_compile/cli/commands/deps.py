@@ -14,19 +14,27 @@ from linkforge_compile.cli.options import (
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, report
-from linkforge_compile.cli.targets import add_for_option, add_output_option, default_format, name_of, targets_of
+from linkforge_compile.cli.targets import (
+    add_for_option,
+    add_output_option,
+    default_format,
+    name_of,
+    refuse_formats_as_specs,
+    targets_of,
+)
 
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.cli.targets import Targets
     from linkforge_compile.pipeline import Compilation
 
 FORMATS = ("make", "json")
 
 _EXAMPLES = """\
 It lists the spec, the files that it includes and uses, files of values, xacro files, and meshes from which an inertia
-is computed; and the templates and the version of linkforge itself. A rule of Make is for the URDF, unless -o or
---for name other files.
+is computed; and linkforge's own templates of the format, and its version. The format is URDF, unless -o or --for name
+other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
@@ -54,34 +62,38 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     specs, assignments = split_assignments(arguments.words)
+    refuse_formats_as_specs(specs, "--for")
     spec = require_one_spec(specs)
     compilation = compile_spec(spec, assignments, arguments)
     is_faulty = report(compilation.diagnostics, arguments)
+    targets = _targets(spec, arguments.outputs, arguments.formats)
     if arguments.format == "json":
-        write_to_stdout(_json_text(compilation))
+        write_to_stdout(_json_text(compilation, targets))
     elif not is_faulty:
         from linkforge_compile.cli.output import inputs_of, make_rules
 
-        write_to_stdout(
-            make_rules(_outputs(spec, arguments.outputs, arguments.formats, compilation), inputs_of(compilation.files))
-        )
+        targets.require_files("a rule of Make", "says what files are made from")
+        inputs = inputs_of(compilation.files, targets.template_folders)
+        write_to_stdout(make_rules(_outputs(targets, compilation), inputs))
     return FAULTY_SPEC if is_faulty else OK
 
 
-def _outputs(spec: str, outputs: list[str], chosen: list[str], compilation: Compilation) -> tuple[Path, ...]:
-    """Return the files that `linkforge compile` would write for these outputs, that of one format if there are none."""
+def _targets(spec: str, outputs: list[str], chosen: list[str]) -> Targets:
+    """Return the targets of the outputs, that of one format if there are none."""
+    name = name_of(spec)
+    return targets_of(name, outputs or ["./" if chosen else f"{name}{default_format().suffix}"], chosen)
+
+
+def _outputs(targets: Targets, compilation: Compilation) -> tuple[Path, ...]:
+    """Return the files that `linkforge compile` would write."""
     from linkforge_compile.cli.build import targets_for
 
-    targets = targets_of(
-        name_of(spec), outputs or ["./" if chosen else f"{name_of(spec)}{default_format().suffix}"], chosen
-    )
-    targets.require_files("a rule of Make", "says what files are made from")
     assert compilation.robot is not None, "a spec without errors has a robot"
     needed, faults = targets_for(compilation.robot, targets)
     return (targets if faults else needed).files
 
 
-def _json_text(compilation: Compilation) -> str:
+def _json_text(compilation: Compilation, targets: Targets) -> str:
     import json
 
     from linkforge_compile.resources import compiler_files
@@ -90,6 +102,6 @@ def _json_text(compilation: Compilation) -> str:
         "version": 1,
         "files": list(map(str, compilation.files)),
         "unread": list(map(str, compilation.unread)),
-        "linkforge": list(map(str, compiler_files())),
+        "linkforge": list(map(str, compiler_files(targets.template_folders))),
     }
     return json.dumps(document, ensure_ascii=False, indent=2) + "\n"

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.diff_folders import in_common_folders
 from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
-from linkforge_compile.cli.options import add_spec_options, split_assignments
+from linkforge_compile.cli.options import add_format_options, add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.formats import URDF
 
 if TYPE_CHECKING:
     import argparse
@@ -77,6 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
         parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
     add_spec_options(parser)
+    add_format_options(parser, [URDF])
     add_report_options(parser)
 
 

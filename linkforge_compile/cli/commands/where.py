@@ -140,9 +140,12 @@ def _lines_with(path: Path, document: str, name: str) -> list[_Query]:
 
 
 def _no_such_name(path: Path, name: str, names: list[str]) -> UsageError:
+    from linkforge_compile.diagnostics.enumerations import listed
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
-    return UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names)}")
+    longer = [other for other in dict.fromkeys(names) if name in other]
+    there_are = f"; there is {listed(longer, 'and')}" if longer else ""
+    return UsageError(f"there is no '{name}' in {path}{did_you_mean(name, names) or there_are}")
 
 
 class _Element(NamedTuple):

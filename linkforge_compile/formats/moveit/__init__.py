@@ -50,6 +50,10 @@ class MoveIt(Format):
     has_urdf = True
     options = Urdf.options
 
+    @property
+    def template_folders(self) -> tuple[str, ...]:
+        return (*chain.from_iterable(one.template_folders for one in _WHOLE_FILES.values()), self.name)
+
     def missing(self, robot: Robot) -> Diagnostic | None:
         from linkforge_compile.formats.moveit.limits import missing_groups
 

@@ -53,6 +53,10 @@ class Sdf(TemplateFormat):
 
         return missing_body(robot)
 
+    @property
+    def template_folders(self) -> tuple[str, ...]:
+        return ("urdf", self.name)
+
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.sdf.limits import sdf_limits
 
