@@ -312,6 +312,8 @@ def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool
     if not isinstance(entry.value, YamlMap):
         return name == "variables" and around.is_free and not isinstance(entry.value, YamlFault)
     keys = _keys(entry)
+    if keys <= _keys_of_entries(around) and not _is_valid_in(section, entry):
+        return False  # a wrong value under a right key
     known = keys & _keys_of_entries(section)
     is_misspelt = len(keys - known) <= 1 < len(known) and not keys & _keys_of_entries(around)
     return bool(known) and (known == keys or is_misspelt)
