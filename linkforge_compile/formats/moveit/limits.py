@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics.codes.formats import NO_GROUP_TO_PLAN, NOTHING_EXECUTES
+from linkforge_compile.diagnostics.codes.formats import NO_GROUP_TO_PLAN, NO_JOINT_STATES, NOTHING_EXECUTES
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.formats.groups import faulty_groups, joints_by_group
 from linkforge_compile.formats.moveit.view import executing_controllers
-from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, has_faulty_names
+from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers, has_faulty_names
+from linkforge_compile.formats.ros2_controllers.kinds import KINDS, OTHER_CLASSES, STATES, misspelled_class
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -23,9 +24,16 @@ def missing_groups(robot: Robot) -> Diagnostic | None:
     return NO_GROUP_TO_PLAN.at(robot.source, "name", robot=robot.name)
 
 
+def check_joint_states(robot: Robot) -> Iterator[Diagnostic]:
+    """A controller publishes the states of the joints; one of a class that is not known may do so."""
+    types = {one.type for one in complete_controllers(robot)}
+    if robot.ros2_controls and STATES not in types and types <= {*KINDS, *OTHER_CLASSES}:
+        yield NO_JOINT_STATES.at(robot.source, "controllers")
+
+
 def check_execution(robot: Robot) -> Iterator[Diagnostic]:
     """The joints of each planning group are those of controllers that MoveIt can send motions to."""
-    if any(has_faulty_names(robot, one) for one in robot.controllers):
+    if any(has_faulty_names(robot, one) or misspelled_class(one.type) for one in robot.controllers):
         return
     controlled = {name for one in executing_controllers(robot) for name in one.joints}
     groups, faulty, hardware = joints_by_group(robot), faulty_groups(robot), commanded_joints(robot)
