@@ -87,6 +87,8 @@ WITHOUT_A_CASE = {
     "LF7613": "formats/test_ros2_controllers.py",
     "LF7614": "formats/test_ros2_controllers.py",
     "LF7615": "formats/test_moveit.py",
+    "LF7616": "formats/test_moveit.py",
+    "LF7617": "formats/test_moveit.py",
     "LF7701": "collisions/test_command.py",
     "LF7702": "collisions/test_command.py",
     "LF7703": "collisions/test_command.py",

@@ -234,6 +234,21 @@ def test_of_controllers_with_a_joint_in_common_the_first_is_the_default():
     assert (manager["a"]["default"], manager["b"]["default"]) == (True, False)
 
 
+def test_misspelled_parameters_of_solvers_are_reported():
+    arm = "{chain: {base_link: base, tip_link: lower}, kinematics: {kinematics_sover: pick_ik/PickIkPlugin, mode: a}}"
+    assert reported(f"{ROBOT}semantic: {{groups: {{arm: {arm}}}}}\n") == [
+        "LF7616 MoveIt reads no 'kinematics_sover' in the `kinematics` of a group; did you mean 'kinematics_solver'?"
+    ]
+
+
+def test_a_chain_without_a_solver_is_reported():
+    group = "{chain: {base_link: base, tip_link: lower}}"
+    effector = "end_effectors: {arm: {group: arm, parent_link: base}}"
+    assert reported(f"{ROBOT}semantic: {{groups: {{arm: {group}}}, {effector}}}\n") == [
+        "LF7617 group 'arm' has no solver, because it is that of an end effector; write its `kinematics`"
+    ]
+
+
 def test_joints_without_a_command_interface_are_named():
     text = ROBOT.replace("elbow: {command_interfaces: [position], ", "elbow: {")
     assert reported(text + ARM_GROUP) == [

@@ -257,6 +257,13 @@ NO_JOINT_STATES = Code(
     "no controller publishes the states of the joints, which MoveIt needs; write `joint_state_broadcaster: "
     "{{type: joint_state_broadcaster/JointStateBroadcaster}}` in `controllers`",
 )
+UNKNOWN_OF_SOLVER = Code("LF7616", _W, "MoveIt reads no '{name}' in the `kinematics` of a group")
+NO_SOLVER = Code(
+    "LF7617",
+    _W,
+    "group '{group}' has no solver, because it is that of an end effector; write its `kinematics`",
+    subject="group",
+)
 UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
 WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 

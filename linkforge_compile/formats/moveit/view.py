@@ -29,6 +29,9 @@ _SOLVER = {
 }
 """What the MoveIt Setup Assistant writes."""
 
+SOLVER_PARAMETERS = (*_SOLVER, "kinematics_solver_attempts", "kinematics_solver_ik_links")
+"""The parameters of a group that MoveIt itself reads; all others are those of a solver."""
+
 _DECIMALS = frozenset(_SOLVER) | {"epsilon", "orientation_vs_position"}
 """Parameters that the loader of solvers, and KDL's, declare as numbers with decimals."""
 
