@@ -5,9 +5,10 @@ Stages pass values on and report faults to the sink; no stage stops at the first
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.checks import check
@@ -18,7 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import NOT_CHECKED, VARIANTS_BE
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import Arguments, CliArgument, Unset, arguments_from_text, arguments_from_values, expand
-from linkforge_compile.formats import NO_OPTIONS, Options, format_named, report_limits, require_options
+from linkforge_compile.formats import NO_OPTIONS, Options, formats_or_default, require_options
 from linkforge_compile.formats.urdf import Gazebo
 from linkforge_compile.fresh_stack import on_fresh_stack
 from linkforge_compile.gc_paused import gc_paused
@@ -71,9 +72,9 @@ def compile_file(
 
     `variant` is the one of the file's `variants` that sets what `parameters` do not, before the defaults, or several
     of them, `a+b`, of which the last one decides. `gazebo` is the simulator, Gazebo Sim or Classic, whose limits are
-    reported; give it to `render_urdf` as well. `formats` are those whose limits are reported in addition to URDF and
-    SRDF, and `options` are theirs, such as `{"base": "free"}`; give these to `render` as well. `output` is the folder
-    of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
+    reported; give it to `render_urdf` as well. `formats` are those whose limits are reported, URDF and SRDF if there
+    are none, and `options` are theirs, such as `{"base": "free"}`; give these to `render` as well. `output` is the
+    folder of the URDF, from which relative paths of meshes must lead to a file; None if it is not known.
     What a spec names is read in its own package or repository (else its folder), in `packages`, in those of
     AMENT_PREFIX_PATH and ROS_PACKAGE_PATH, and where `parameters` name a file; `allow_outside` lets it read anything.
 
@@ -81,9 +82,9 @@ def compile_file(
         ValueError: for an unknown format or option, and another `gazebo` than `gz` or `classic`.
 
     """
-    folder = Path(output) if output is not None else None
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folder, allow_outside, formats)
+    folders = {} if output is None else {_format_with_paths(formats): Path(output)}
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folders, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -102,7 +103,7 @@ def compile_text(
 ) -> Compilation:
     """Compile a spec given as text; `name` is its name in diagnostics, `folder` is where relative paths start."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.ERROR, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, {}, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -119,7 +120,7 @@ def check_file(
 ) -> Compilation:
     """Report what is wrong with a spec file; what depends on a required parameter without a value is not checked."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, {}, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -138,7 +139,7 @@ def check_text(
 ) -> Compilation:
     """Report what is wrong with a spec given as text, as `check_file` does."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, {}, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -198,8 +199,9 @@ _Read: TypeAlias = Callable[[Loader, Diagnostics], SpecFile | None]
 class Settings(NamedTuple):
     """How to compile a spec.
 
-    `options` are those of the output formats, and `formats` the ones requested, whose limits are reported beside those
-    of the default ones. `whole` is the budget that this compile shares with others.
+    `options` are those of the output formats, and `formats` the ones whose limits are reported, none for the default
+    ones. `folders` are those where relative paths of meshes start, by the name of the format, as far as they are known.
+    `whole` is the budget that this compile shares with others.
     """
 
     parameters: Parameters | None = None
@@ -207,10 +209,15 @@ class Settings(NamedTuple):
     variant: str | None = None
     options: Options = NO_OPTIONS
     unset: Unset = Unset.ERROR
-    output: Path | None = None
+    folders: Mapping[str, Path] = MappingProxyType({})
     allow_outside: bool = False
     formats: tuple[str, ...] = ()
     whole: Budget | None = None
+
+    @property
+    def has_urdf(self) -> bool:
+        """Whether a URDF is among the outputs; ValueError for an unknown format."""
+        return any(one.has_urdf for one in formats_or_default(self.formats))
 
     def loader(self, place: Path | None) -> Loader:
         """Return the loader of one compile of a file or of a text in a folder; None for a text without a folder."""
@@ -260,8 +267,7 @@ def _compile(read: _Read, place: Path | None, settings: Settings) -> Compilation
 @suggestion_budget()
 def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compilation:
     require_options(settings.options)
-    for name in settings.formats:
-        format_named(name)
+    has_urdf = settings.has_urdf
     sink = Diagnostics()
     loader = settings.loader(place)
     meshes = MeshSolids(loader.budget)
@@ -285,7 +291,7 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
     if suppressions:
         from linkforge_compile.diagnostics.reports import apply_suppressions
 
-        report = apply_suppressions(report, suppressions, is_whole=robot is not None)
+        report = apply_suppressions(report, suppressions, is_whole=robot is not None and has_urdf)
     return Compilation(robot, group_alike(report), (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
 
 
@@ -300,18 +306,21 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages}, roots=loader.roots)
     for robot, unresolved in lowered.robots:
         robot.resource_resolver = resolver
-        sink.report_all(check(robot, unresolved.with_access(loader.roots.hold)))
+        sink.report_all(check(robot, unresolved.with_access(loader.roots.hold), has_urdf=settings.has_urdf))
     if lowered.robot is not None:
-        sink.report_all(report_limits(lowered.robot, settings.options, settings.formats))
-        if settings.output is not None:
-            from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
+        for one in formats_or_default(settings.formats):
+            sink.report_all(one.limits(lowered.robot, settings.options))
+        if settings.folders:
+            from linkforge_compile.formats.relative_paths import check_mesh_paths_of_formats
 
-            documents = (name.upper() for name in settings.formats if format_named(name).has_relative_paths)
-            document = next(documents, "URDF")
-            sink.report_all(
-                check_relative_mesh_paths(lowered.robot, settings.output, start=spec.folder, document=document)
-            )
+            folders, options = settings.folders, settings.options
+            sink.report_all(check_mesh_paths_of_formats(lowered.robot, folders, options, start=spec.folder))
     return lowered.robot
+
+
+def _format_with_paths(formats: Sequence[str]) -> str:
+    """Return the first format with relative paths, URDF if none has."""
+    return next((one.name for one in formats_or_default(formats) if one.has_relative_paths), "urdf")
 
 
 def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Compilation:

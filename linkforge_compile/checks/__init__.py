@@ -34,8 +34,6 @@ MeshCheck: TypeAlias = Callable[[Robot, RobotMeshes], Iterator[Diagnostic]]
 
 ROBOT_CHECKS: tuple[Check, ...] = (
     names.check_duplicates,
-    names.check_link_and_joint_names,
-    names.check_reserved_names,
     names.check_frame_names,
     tree.check_links,
     tree.check_joint_ends,
@@ -74,12 +72,18 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     sensors.check_plugin_joints,
     sensors.check_plugin_files,
     sensors.check_simulated_hardware,
+    gazebo.check_tags_of_several_blocks,
+)
+
+URDF_CHECKS: tuple[Check, ...] = (
+    names.check_link_and_joint_names,
+    names.check_reserved_names,
     gazebo.check_massless_bodies,
     gazebo.check_tiny_masses,
     gazebo.check_merged_joints,
     gazebo.check_merged_links,
-    gazebo.check_tags_of_several_blocks,
 )
+"""Checks of what Gazebo makes of a URDF."""
 
 SEMANTIC_CHECKS: tuple[Check, ...] = (
     names.check_semantic_duplicates,
@@ -116,9 +120,12 @@ MESH_CHECKS: tuple[MeshCheck, ...] = (
 )
 
 
-def check(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
-    """Yield all faults of a robot in the order of the checks; nothing about names whose errors are already reported."""
-    for check_robot in ROBOT_CHECKS:
+def check(robot: Robot, unresolved: UnresolvedNames, *, has_urdf: bool = True) -> Iterator[Diagnostic]:
+    """Yield all faults of a robot in the order of the checks; nothing about names whose errors are already reported.
+
+    `has_urdf` is whether a URDF is written of it.
+    """
+    for check_robot in (*ROBOT_CHECKS, *URDF_CHECKS) if has_urdf else ROBOT_CHECKS:
         yield from check_robot(robot, unresolved)
     # Reading the semantic part of a robot that has none creates one, and imports its classes.
     if robot.has_semantic:

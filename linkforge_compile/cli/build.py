@@ -81,10 +81,10 @@ def _place(target: Path, name: str) -> Path:
 
 def compile_request(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
     """Compile the spec of a request with the options of `linkforge compile`."""
-    folder = request.targets.folder if arguments.installed_in is None else Path(arguments.installed_in)
+    folders = request.targets.folders(arguments.installed_in)
     formats, variant = request.targets.formats, request.variant
     spec, assignments = request.spec, request.assignments
-    return compile_spec(spec, assignments, arguments, output=folder, formats=formats, variant=variant)
+    return compile_spec(spec, assignments, arguments, folders=folders, formats=formats, variant=variant)
 
 
 def render_request(request: BuildRequest, compilation: Compilation, arguments: argparse.Namespace) -> Build:

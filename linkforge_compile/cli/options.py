@@ -6,8 +6,9 @@ import argparse
 import os
 import stat
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO, NoReturn
 
 from linkforge_compile.cli import UsageError
@@ -176,20 +177,20 @@ def compile_spec(
     assignments: list[str],
     arguments: argparse.Namespace,
     *,
-    output: Path | None = None,
+    folders: Mapping[str, Path] = MappingProxyType({}),
     text: str | None = None,
     formats: tuple[str, ...] = (),
     variant: str | None = None,
 ) -> Compilation:
     """Compile a spec with the options of `add_spec_options`.
 
-    `variant` is the one where the options may list several. `output` is the folder of the documents, None if unknown.
+    `variant` is the one where the options may list several. `folders` are where relative paths start, by format.
     `text` is the content of a spec that was read already, because it can be read only once. `formats` are the
     requested ones.
     """
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = settings_of(assignments, arguments)._replace(output=output, formats=formats)
+    settings = settings_of(assignments, arguments)._replace(folders=folders, formats=formats)
     settings = settings if variant is None else settings._replace(variant=variant)
     if spec == "-" or text is not None:
         text = read_stdin() if text is None else text

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TextIO, TypeVar
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics import Code, Diagnostic, Severity
+from linkforge_compile.diagnostics.codes import OUTPUT_CODES
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -27,8 +28,7 @@ PROGRESS_INTERVAL = 2.0
 """Time between two messages of `progress` [s]."""
 
 ANY_CODE = "LF"
-OUTPUT_CODES = "LF7"
-"""How all codes begin, and those about what is written."""
+"""How all codes begin."""
 
 _Item = TypeVar("_Item")
 

@@ -45,12 +45,23 @@ class Targets(NamedTuple):
             path / file for name, path in written.items() for file in formats.format_named(name).files or ("",)
         )
 
-    @property
-    def folder(self) -> Path | None:
-        """The folder where relative paths in the documents start; None where that is not known."""
-        names = (name for name in self.formats if formats.format_named(name).has_relative_paths)
-        path = self.paths.get(next(names, ""))
-        return path.parent if path else None
+    def folders(self, installed_in: Sequence[str]) -> Mapping[str, Path]:
+        """Return the folders where relative paths in the documents start, by format, as far as they are known.
+
+        `installed_in` has the final folder of all of them, or `FORMAT=FOLDER`.
+        """
+        finals: dict[str, Path] = {}
+        names = [one.name for one in formats.FORMATS]
+        for word in installed_in:
+            name, equals, folder = word.partition("=")
+            is_of_one = bool(equals) and name in names
+            finals |= {name: Path(folder)} if is_of_one else dict.fromkeys(names, Path(word)) | finals
+        folders = {}
+        for one in map(formats.format_named, self.formats):
+            path = Path(finals[one.name], "" if one.files else "NAME") if one.name in finals else self.paths[one.name]
+            if path and one.has_relative_paths:
+                folders[one.name] = one.folder_of_documents(path)
+        return folders
 
     def without(self, names: Collection[str]) -> Targets:
         paths = {name: path for name, path in self.paths.items() if name not in names}

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics.codes import REGISTER
+from linkforge_compile.diagnostics.codes import OUTPUT_CODES, REGISTER
 from linkforge_compile.diagnostics.codes.modules import VARIANTS_BEYOND_LIMIT
 from linkforge_compile.diagnostics.codes.syntax import (
     IGNORE_MISWRITTEN,
@@ -67,7 +67,8 @@ def apply_suppressions(
 ) -> tuple[Diagnostic, ...]:
     """Return a report in reading order without what is suppressed, and with the faults of the comments.
 
-    Errors stay. Unused suppressions are reported only if `is_whole`, which means that every stage ran.
+    Errors stay. Unused suppressions are reported only if `is_whole`, which means that every stage and check ran; those
+    of LF7 never are, as it depends on the formats of a compile which of them it reports.
     """
     # By the file's name, as one that is included twice is two files with the same comments.
     suppressed = {
@@ -104,7 +105,7 @@ def _faults(comment: Suppression, used: Collection[tuple[str, int, str]], is_who
             yield IGNORE_OF_UNKNOWN_CODE.at(span, name=code, hint=hint, near=() if hint else REGISTER)
         elif REGISTER[code].severity is Severity.ERROR:
             yield IGNORE_OF_ERROR.at(span, code=code)
-        elif is_whole and (span.file.name, comment.line, code) not in used:
+        elif is_whole and not code.startswith(OUTPUT_CODES) and (span.file.name, comment.line, code) not in used:
             yield NOTHING_TO_IGNORE.at(span, code=code, line=comment.line)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,6 @@ from linkforge_compile.formats.urdf import Urdf
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.user_templates import TemplateFolder
 
 __all__ = [
@@ -37,8 +36,8 @@ __all__ = [
     "Rendering",
     "declared_options",
     "format_named",
+    "formats_or_default",
     "render_documents",
-    "report_limits",
     "require_options",
 ]
 
@@ -79,12 +78,9 @@ def require_options(options: Options) -> None:
         declared[name].value(options)
 
 
-def report_limits(robot: Robot, options: Options, requested: Iterable[str] = ()) -> Iterator[Diagnostic]:
-    """Yield what the default formats and the requested ones cannot hold of a robot."""
-    names = frozenset(requested)
-    for one in FORMATS:
-        if one.is_default or one.name in names:
-            yield from one.limits(robot, options)
+def formats_or_default(names: Iterable[str]) -> tuple[Format, ...]:
+    """Return the formats of these names, the default ones if there are none; ValueError for an unknown one."""
+    return tuple(map(format_named, names)) or tuple(one for one in FORMATS if one.is_default)
 
 
 def render_documents(robot: Robot, templates: TemplateFolder, options: Options, banner: str) -> dict[str, str]:

@@ -97,10 +97,13 @@ class Format(ABC):
     """What it cannot hold of a robot, in one sentence; `limits` reports each such part."""
 
     is_default: bool = False
-    """Whether it is written to a folder, and `check` reports its limits, without being requested."""
+    """Whether it is written to a folder, and `check` reports its limits, if no format is requested."""
+
+    has_urdf: bool = False
+    """Whether a URDF is among its documents, so that what Gazebo makes of a URDF is checked."""
 
     has_relative_paths: bool = False
-    """Whether relative paths of meshes in its documents start at the folder of the document."""
+    """Whether relative paths of meshes in its documents start at the folder of the first document."""
 
     options: tuple[Option, ...] = ()
 
@@ -116,6 +119,14 @@ class Format(ABC):
     def limits(self, robot: Robot, options: Options) -> Iterable[Diagnostic]:
         """Return what the format, or its common readers, cannot hold of a robot."""
         return ()
+
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        """Whether the relative paths of a robot's meshes are in its documents."""
+        return self.has_relative_paths
+
+    def folder_of_documents(self, target: Path) -> Path:
+        """Return the folder where relative paths start; `target` is its file, or the folder of its files."""
+        return (target / self.files[0] if self.files else target).parent
 
     def missing(self, robot: Robot) -> Diagnostic | None:
         """Return why the format has nothing to write for a robot; None where it has."""

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.srdf import VirtualJointType
+from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.srdf import Chain, PlanningGroup
-
-SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
-"""The types of joints with one position, for which MoveIt and ros2_control have limits and controllers."""
 
 
 def actuated_joints(robot: Robot) -> tuple[Joint, ...]:

@@ -38,7 +38,6 @@ def check_texts(robot: Robot, doubtful: Doubtful) -> Iterator[Diagnostic]:
     """XML holds no control characters, extras must be well-formed, and only some names can be those of tags."""
     yield from unwritable_raw(robot, robot.source)
     yield from unwritable_texts(doubtful.parts)
-    yield from undeclared_prefixes(robot, doubtful.with_extras)
 
 
 def check_attributes(parts: Sequence[Held], robot: Robot, render: Callable[[], str]) -> Iterator[Diagnostic]:

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import stat
 import subprocess
 import sys
@@ -147,6 +148,55 @@ def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulu
     assert "the MJCF's folder; write 'package://NAME/PATH', or the MJCF into '.'" in stderr
     (pendulum / "build" / "meshes").symlink_to(pendulum / "meshes")
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
+
+
+def test_relative_meshes_are_reported_where_a_format_has_them_at_its_own_folder(pendulum: Path):
+    """LF7006: MoveIt's URDF is in `config`; MJCF and SDF may have the full paths of all files."""
+    (pendulum / "package.xml").write_text("<package><name>rods</name></package>")
+    for name in ("rod.stl", "hand.stl"):
+        (pendulum / name).write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    inertial = "inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}"
+    spec = f"linkforge: 1\nname: rod\nlinks:\n  rod: {{visual: {{mesh: rod.stl}}, {inertial}}}\n"
+    hand = f"  hand: {{visual: {{mesh: package://rods/hand.stl}}, {inertial}}}\n"
+    joints = "joints: {turn: {type: continuous, parent: rod, child: hand, axis: z}}\n"
+    (pendulum / "rod.robot.yaml").write_text(f"{spec}{hand}{joints}semantic: {{groups: {{arm: {{joints: [turn]}}}}}}\n")
+
+    def reported(*words: str) -> list[str]:
+        lines = linkforge("compile", "rod.robot.yaml", *words, cwd=pendulum).stderr.splitlines()
+        return [line.partition("found from ")[2] for line in lines if line.endswith("[LF7006]")]
+
+    of_moveit = "'rod_moveit_config/config', the URDF's folder; write 'package://NAME/PATH' [LF7006]"
+    assert reported("-o", ".", "--format", "moveit") == [of_moveit]
+    assert reported("-o", ".", "--format", "urdf", "--format", "moveit") == [of_moveit]
+    of_urdf = "'build', the URDF's folder; write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
+    assert reported("-o", "build/") == reported("-o", "build/", "--format", "urdf", "--format", "sdf") == [of_urdf]
+    assert reported("-o", "build/rod.mjcf") == []
+    assert f'meshdir="{pendulum}"' in (pendulum / "build" / "rod.mjcf").read_text()
+    assert reported("-o", "build/rod.sdf") == [of_urdf.replace("URDF", "SDF")]
+    assert reported("-o", "build/rod.sdf", "--meshes", "file") == []
+
+
+@pytest.mark.parametrize(
+    ("installed", "misplaced"),
+    [
+        (["urdf=urdf", "sdf=sdf"], {"sdf": "SDF"}),
+        (["sdf=sdf", "urdf"], {"sdf": "SDF"}),
+        (["urdf=sdf", "sdf=urdf"], {"sdf": "URDF"}),
+        (["sdf"], {"sdf": "URDF"}),
+        ([], {"a": "URDF", "b": "SDF"}),
+    ],
+)
+def test_each_format_is_installed_in_its_folder(pendulum: Path, installed: list[str], misplaced: dict[str, str]):
+    """LF7006."""
+    for folder in (pendulum, pendulum / "urdf"):
+        folder.mkdir(exist_ok=True)
+        (folder / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    spec = "linkforge: 1\nname: rod\nlinks: {rod: {visual: {mesh: rod.stl}, collision: visual}}\n"
+    (pendulum / "rod.robot.yaml").write_text(spec)
+    options = [word for folder in installed for word in ("--installed-in", folder)]
+    run = linkforge("compile", "rod.robot.yaml", "-o", "a/r.urdf", "-o", "b/r.sdf", *options, cwd=pendulum)
+    found = re.findall(r"cannot be found from '(\w+)', the (\w+)'s folder", run.stderr)
+    assert dict(found) == misplaced
 
 
 def test_meshes_of_a_spec_on_standard_input_are_looked_for_from_the_output_folder(pendulum: Path):

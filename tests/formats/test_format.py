@@ -1,6 +1,7 @@
 """A format is one object in `formats.FORMATS`: commands, the compiler and source maps learn of it from that."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -9,8 +10,9 @@ from linkforge_compile import formats
 from linkforge_compile.cli import INTERRUPTED
 from linkforge_compile.cli.commands import watch
 from linkforge_compile.cli.main import main
-from linkforge_compile.formats.environment import XML_ENDINGS
+from linkforge_compile.formats.environment import xml_endings
 from linkforge_compile.formats.format import TemplateFormat
+from tests.conftest import ROOT
 from tests.formats.example_formats import Folder, Joints, Limits
 
 SPEC = """\
@@ -72,6 +74,50 @@ def test_its_limits_are_reported_where_it_is_requested(capsys: pytest.CaptureFix
     assert main(["check", "arm.robot.yaml", "--for", "joints", "--strict"]) == 1
     assert main(["compile", "arm.robot.yaml", "-o", "a.joints"]) == 0
     assert "arm.robot.yaml:7:3: warning: 'elbow' is longer than 4 characters [LF7999]" in capsys.readouterr().err
+
+
+OF_GAZEBO = """\
+linkforge: 1
+name: arm
+links:
+  base: {inertial: &body {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+  rod: {inertial: *body}
+  tip:
+joints:
+  rod: {type: fixed, parent: base, child: rod}  # linkforge: ignore LF4108
+  turn: {type: fixed, parent: rod, child: tip, gazebo: {provide_feedback: true}}
+sensors:
+  # linkforge: ignore LF7102
+  force: {type: force_torque, link: rod}
+  # linkforge: ignore LF7412
+  other: {type: force_torque, link: rod}
+"""
+
+
+def codes(words: list[str], capsys: pytest.CaptureFixture[str]) -> set[str]:
+    assert main(words) == 0
+    return set(re.findall(r"\[(LF[0-9]+)\]", capsys.readouterr().err))
+
+
+@pytest.mark.parametrize("words", [["check"], ["check", "--for", "urdf"], ["compile", "-o", "a.urdf"]], ids=" ".join)
+def test_what_gazebo_makes_of_a_urdf_is_reported_where_one_is_written(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+):
+    Path("arm.robot.yaml").write_text(OF_GAZEBO)
+    assert codes([*words, "arm.robot.yaml"], capsys) == {"LF6040", "LF7102"}
+
+
+@pytest.mark.parametrize("words", [["check", "--for", "joints"], ["compile", "-o", "a.joints"]], ids=" ".join)
+def test_other_formats_are_not_blamed_for_a_urdf(words: list[str], capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(OF_GAZEBO)
+    assert codes([*words, "arm.robot.yaml"], capsys) <= {"LF7999"}
+
+
+@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf"])
+def test_formats_of_xml_report_what_no_xml_holds(name: str, capsys: pytest.CaptureFixture[str]):
+    Path("arm.robot.yaml").write_text(SPEC.replace("rod:\n", "rod: {extra: [<broken]}\n"))
+    assert main(["compile", "arm.robot.yaml", "--format", name]) == 1
+    assert "arm.robot.yaml:5:17: error: this cannot be written as XML" in capsys.readouterr().err
 
 
 def test_strict_fails_on_what_it_cannot_hold_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
@@ -219,4 +265,6 @@ def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.Mo
 
 def test_templates_of_documents_that_are_xml_are_those_of_formats_of_xml():
     own = [one for one in formats.FORMATS if isinstance(one, TemplateFormat)]
-    assert set(XML_ENDINGS) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
+    assert set(xml_endings()) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
+    page = (ROOT / "docs/templates.md").read_text("utf-8")
+    assert all(f"`NAME{ending}`" in page for ending in xml_endings())

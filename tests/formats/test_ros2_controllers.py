@@ -235,7 +235,7 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
         (
             "ft: {type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster, frame: upper}, o: {type: a/B}",
             "LF7604 controller 'ft' of type force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster does not "
-            "start without `sensor`",
+            "start without `sensor` or `interface_names` in `parameters`",
         ),
         (
             "g: {type: position_controllers/JointGroupPositionController, joints: [elbow], "
@@ -346,6 +346,82 @@ controllers:
     assert type(manager["diagnostics"]["threshold"]["controllers"]["periodicity"]["mean_error"]["warn"]) is float
 
 
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        (
+            "joints: [shoulder], parameters: {joints: [other]}",
+            "LF7621 controller 'c' has 'joints' in `parameters`, and `joints` for the same; remove one of them",
+        ),
+        (
+            "group: arm, parameters: {joints: [shoulder]}",
+            "LF7621 controller 'c' has 'joints' in `parameters`, and `group` for the same; remove one of them",
+        ),
+        (
+            "sensor: imu, parameters: {sensor_name: wrench}",
+            "LF7621 controller 'c' has 'sensor_name' in `parameters`, and `sensor` for the same; remove one of them",
+        ),
+        ("parameters: {joints: [other], list: [1, 2.5], texts: ['1', a], flags: [true, false]}", ""),
+    ],
+)
+def test_what_a_field_states_is_no_parameter_as_well(fields: str, message: str):
+    text = f"{ROBOT}{ARM_GROUP}controllers: {{c: {{type: a/B, {fields}}}}}\n"
+    assert reported(text) == [message] * bool(message)
+
+
+@pytest.mark.parametrize(
+    ("controller", "message"),
+    [
+        (
+            "{type: forward_command_controller/ForwardCommandController, joints: [shoulder], "
+            "command_interfaces: [position, velocity]}",
+            "LF7622 a forward_command_controller/ForwardCommandController accepts one name in 'command_interfaces'; "
+            "'velocity' of 'c' is left out",
+        ),
+        (
+            "{type: parallel_gripper_action_controller/GripperActionController, group: arm}",
+            "LF7622 a parallel_gripper_action_controller/GripperActionController accepts one name in 'joints'; "
+            "'elbow' of 'c' is left out",
+        ),
+    ],
+)
+def test_items_that_are_not_written_are_reported(controller: str, message: str):
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{c: {controller}, o: {{type: a/B}}}}\n") == [message]
+
+
+@pytest.mark.parametrize("items", ["[1, a]", "[true, 1]", "[[1], [2]]", "[{a: 1}]", "[null]"])
+@pytest.mark.parametrize("name", ["c", "controller_manager"])
+def test_a_list_that_ros_refuses_is_an_error(items: str, name: str):
+    type_ = "type: a/B, " if name == "c" else ""
+    own = f"{{{type_}parameters: {{qos_overrides: {{list: {items}}}}}}}"
+    text = f"{ROBOT}controllers: {{o: {{type: a/B}}, {name}: {own}}}\n"
+    assert reported(text) == [
+        f"LF7623 ROS 2 reads no parameters from a file with this list, 'qos_overrides.list' of '{name}': items are all "
+        "numbers, all texts, or all true or false"
+    ]
+
+
+@pytest.mark.parametrize(("name", "is_valid"), [("arm_2", True), ("arm-2", False), ("2_arms", False), ("a/b", False)])
+def test_the_name_of_a_controller_is_that_of_a_node(name: str, is_valid: bool):
+    found = reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}}}\n")
+    assert [one[:6] for one in found] == ["LF7624"] * (not is_valid)
+
+
+def test_a_force_torque_sensor_may_have_the_names_of_its_interfaces_instead():
+    type_ = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
+    names = "{interface_names: {force: {x: wrench/force.x}}}"
+    text = f"{ROBOT}controllers: {{ft: {{type: {type_}, frame: upper, parameters: {names}}}, o: {{type: a/B}}}}\n"
+    assert reported(text) == []
+
+
+def test_a_broadcaster_commands_no_joint():
+    states = "{type: joint_state_broadcaster/JointStateBroadcaster, joints: [shoulder, elbow, left, right]}"
+    arm = "{type: position_controllers/JointGroupPositionController, joints: [shoulder, elbow]}"
+    assert reported(f"{ROBOT}controllers: {{states: {states}, arm: {arm}}}\n") == [
+        "LF7607 no controller commands joint 'left'; the same for 'right'"
+    ]
+
+
 def test_a_joint_without_command_interface_is_reported():
     text = ROBOT.replace("elbow: {command_interfaces: [position], ", "elbow: {")
     trajectory = "{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow]}"
@@ -451,6 +527,7 @@ def test_names_of_joints_groups_and_frames_are_checked():
 
 def test_each_line_leads_to_its_place_in_the_spec():
     text = f"linkforge: 1\nname: robot\n{ROBOT}controllers:\n  own:\n    type: a/B\n    parameters: {{pid: {{p: 4}}}}\n"
+    text += "  controller_manager: {parameters: {update_rate: 500}}\n"
     document = ROS2_CONTROLLERS.render(compile_text(text).result(), Rendering(has_map=True))[0]
     assert document.map is not None
     shown = {}
@@ -460,6 +537,7 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["own:"] == "own"
     assert shown["type: a/B"] == "a/B"
     assert shown["p: 4"] == "4"
+    assert shown["update_rate: 500"] == "500"
 
 
 def test_names_in_parameters_are_reported_under_a_prefix(tmp_path: Path):

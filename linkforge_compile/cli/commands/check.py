@@ -35,7 +35,7 @@ examples:
   linkforge check                                   every spec below, except in hidden folders, build, install and log
   linkforge check arm.robot.yaml hardware:=mock
   linkforge check --all-variants arm.robot.yaml     with the defaults and with each of its variants
-  linkforge check --for mjcf --strict arm.robot.yaml    also what MJCF cannot hold of it, as errors
+  linkforge check --for mjcf --strict arm.robot.yaml    what MJCF cannot hold of it, as errors
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
   linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 reports only those
 """
@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     add_spec_options(parser, variants_help="once more for another one, in the same report")
-    add_for_option(parser, "report also what this output format cannot hold, once more for another one")
+    add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
     add_report_options(parser, is_product=True)
     add_strict_option(parser)
 

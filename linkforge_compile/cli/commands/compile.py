@@ -40,6 +40,8 @@ examples:
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
   linkforge compile arm.robot.yaml -o build/ --format urdf --format mjcf     these of what `linkforge formats` lists
+  linkforge compile arm.robot.yaml --format moveit -o src/                   src/arm_moveit_config/config/
+  linkforge compile arm.robot.yaml --format moveit -o src/my_moveit_config   src/my_moveit_config/config/
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
@@ -88,8 +90,11 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--installed-in",
-        metavar="FOLDER",
-        help="the final folder of the output, from which relative paths of meshes start (default: that of -o)",
+        metavar="[FORMAT=]FOLDER",
+        action="append",
+        default=[],
+        help="the final folder of the outputs, from which relative paths of meshes start (default: that of -o); once "
+        "more for that of another format, such as sdf=share/arm/sdf",
     )
     add_spec_options(
         parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"

@@ -25,3 +25,6 @@ REGISTER: dict[str, Code] = {
     if isinstance(code, Code)
 }
 """Every code by its id."""
+
+OUTPUT_CODES = "LF7"
+"""How the codes about outputs begin; which of them a compile reports depends on its formats."""

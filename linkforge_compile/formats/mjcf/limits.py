@@ -19,13 +19,15 @@ from linkforge_compile.diagnostics.codes.formats import (
     WORLD_BELOW_JOINT,
 )
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
+from linkforge_compile.formats.limits import check_texts
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
-from linkforge_compile.formats.mjcf.joints import SINGLE
 from linkforge_compile.formats.mjcf.losses import lost_parts
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.names import check_names
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
+from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -37,6 +39,7 @@ MAX_DEPTH = 490
 
 def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     """Yield what is left out or changed in the MJCF of a robot, and what MuJoCo refuses."""
+    yield from check_texts(robot, doubtful_parts_of_urdf(robot))
     tree = KinematicTree.of(robot)
     if (depth := tree.depth()) > MAX_DEPTH:
         yield NESTED_TOO_DEEP.at(robot.source, "name", depth=depth, most=MAX_DEPTH)

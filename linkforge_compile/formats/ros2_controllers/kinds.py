@@ -30,60 +30,82 @@ _TYPING_ERRORS = 2
 JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
 """The fields of a controller with names of joints."""
 
-_ANY: Mapping[str, str] = {
-    "joints": "joints",
-    "left_wheels": "left_wheel_names",
-    "right_wheels": "right_wheel_names",
-    "sensor": "sensor_name",
-    "frame": "frame_id",
-    "command_interfaces": "command_interfaces",
-    "state_interfaces": "state_interfaces",
-}
+_ALL_FIELDS: Mapping[str, str] = MappingProxyType(
+    {
+        "joints": "joints",
+        "left_wheels": "left_wheel_names",
+        "right_wheels": "right_wheel_names",
+        "sensor": "sensor_name",
+        "frame": "frame_id",
+        "command_interfaces": "command_interfaces",
+        "state_interfaces": "state_interfaces",
+    }
+)
 
 
 class Kind(NamedTuple):
     """A class of controllers.
 
-    `parameters` are the names of its parameters by the fields of Controller; those in `single` have one name and no
-    list. It needs those in `required`, other parameters too. All of its parameters are in `parameters.py`. `commands`
-    and `states` are the interfaces of its joints that it claims where its fields have none.
+    `parameters` are the names of its parameters by the fields of Controller; those of the fields in `single` have one
+    name and no list. It does not start without its parameters in `required`, or those that `instead` has for them. All
+    of its parameters are in `parameters.py`. `commands` and `states` are the interfaces of its joints that it claims
+    where its fields have none.
     """
 
-    parameters: Mapping[str, str] = MappingProxyType(_ANY)
+    parameters: Mapping[str, str]
     single: frozenset[str] = frozenset()
     required: tuple[str, ...] = ()
+    instead: Mapping[str, str] = MappingProxyType({})
     commands: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
 
 
-def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] = (), **renamed: str) -> Kind:
-    names = {field: _ANY[field] for field in fields} | renamed
-    return Kind(names, frozenset(single), required or tuple(names[field] for field in fields))
-
-
-_GROUP, _SENSOR = _kind("joints"), _kind("sensor", "frame")
-_OLD_GRIPPER = _kind(single=("joints",), required=("joint",), joints="joint")._replace(states=("position", "velocity"))
-_GRIPPER = _OLD_GRIPPER._replace(
-    parameters={"joints": "joint", "state_interfaces": "state_interfaces"}, commands=("position",)
-)
-
 KINDS: Mapping[str, Kind] = {
-    TRAJECTORY: _kind("joints", "command_interfaces", "state_interfaces"),
-    GRIPPER: _GRIPPER,
-    OLD_GRIPPER: _OLD_GRIPPER._replace(commands=("position",)),
-    EFFORT_GRIPPER: _OLD_GRIPPER._replace(commands=("effort",)),
-    FORWARD: _kind("joints", single=("command_interfaces",), command_interfaces="interface_name"),
-    POSITION_GROUP: _GROUP._replace(commands=("position",)),
-    VELOCITY_GROUP: _GROUP._replace(commands=("velocity",)),
-    EFFORT_GROUP: _GROUP._replace(commands=("effort",)),
+    TRAJECTORY: Kind(
+        {"joints": "joints", "command_interfaces": "command_interfaces", "state_interfaces": "state_interfaces"},
+        required=("joints", "command_interfaces", "state_interfaces"),
+    ),
+    GRIPPER: Kind(
+        {"joints": "joint", "state_interfaces": "state_interfaces"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("position",),
+        states=("position", "velocity"),
+    ),
+    OLD_GRIPPER: Kind(
+        {"joints": "joint"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("position",),
+        states=("position", "velocity"),
+    ),
+    EFFORT_GRIPPER: Kind(
+        {"joints": "joint"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("effort",),
+        states=("position", "velocity"),
+    ),
+    FORWARD: Kind(
+        {"joints": "joints", "command_interfaces": "interface_name"},
+        single=frozenset({"command_interfaces"}),
+        required=("joints", "interface_name"),
+    ),
+    POSITION_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("position",)),
+    VELOCITY_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("velocity",)),
+    EFFORT_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("effort",)),
     STATES: Kind({"joints": "joints", "state_interfaces": "interfaces"}),
-    DIFF_DRIVE: _kind(
-        "left_wheels",
-        "right_wheels",
+    DIFF_DRIVE: Kind(
+        {"left_wheels": "left_wheel_names", "right_wheels": "right_wheel_names"},
         required=("left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"),
-    )._replace(commands=("velocity",)),
-    IMU: _SENSOR,
-    FORCE_TORQUE: _SENSOR,
+        commands=("velocity",),
+    ),
+    IMU: Kind({"sensor": "sensor_name", "frame": "frame_id"}, required=("sensor_name", "frame_id")),
+    FORCE_TORQUE: Kind(
+        {"sensor": "sensor_name", "frame": "frame_id"},
+        required=("sensor_name", "frame_id"),
+        instead={"sensor_name": "interface_names"},
+    ),
 }
 
 OTHER_CLASSES = (
@@ -108,7 +130,7 @@ OTHER_CLASSES = (
 )
 """The other classes of ros2_controllers, which have the usual names."""
 
-ANY_KIND = Kind()
+ANY_KIND = Kind(_ALL_FIELDS)
 """What any other class is given: all that a controller has, under the usual names."""
 
 

@@ -23,8 +23,16 @@ from linkforge_compile.formats.ros2_controllers.complete import (
     has_faulty_names,
 )
 from linkforge_compile.formats.ros2_controllers.interfaces import check_interfaces
-from linkforge_compile.formats.ros2_controllers.kinds import JOINT_FIELDS, KINDS, TRAJECTORY, kind_of, misspelled_class
+from linkforge_compile.formats.ros2_controllers.kinds import (
+    JOINT_FIELDS,
+    KINDS,
+    STATES,
+    TRAJECTORY,
+    kind_of,
+    misspelled_class,
+)
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
+from linkforge_compile.formats.ros2_controllers.refused import check_refused
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -45,6 +53,7 @@ def missing_hardware(robot: Robot) -> Diagnostic | None:
 def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     """A controller has what its class needs and nothing else; each commanded joint has a controller."""
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
+    yield from check_refused(robot, controllers)
     if manager := robot.controllers.get(MANAGER):
         loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
         yield from _check_types(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
@@ -55,7 +64,8 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
         yield from _check_types(controller, controller.type or "", _joints(controller))
         yield from check_interfaces(robot, controller)
     has_states_alone = all(one.name == MANAGER for one in robot.controllers)
-    used = {name for one in controllers for field in JOINT_FIELDS for name in getattr(one, field)}
+    commanding = [one for one in controllers if one.type != STATES]
+    used = {name for one in commanding for field in JOINT_FIELDS for name in getattr(one, field)}
     is_known = has_states_alone or all(one.type in KINDS for one in controllers)
     for joint in hardware.values() if is_known and sound == list(controllers) and not faulty_groups(robot) else ():
         if joint.name not in used:
@@ -81,13 +91,16 @@ def _check_class(controller: Controller) -> Iterator[Diagnostic]:
 def _check_parameters(controller: Controller) -> Iterator[Diagnostic]:
     kind, name = kind_of(controller.type), controller.name
     given = {kind.parameters[field] for field in _FIELDS if field in kind.parameters and getattr(controller, field)}
-    lacks = [one for one in kind.required if one not in given and one not in controller.parameters]
+    given |= controller.parameters.keys()
+    lacks = [one for one in kind.required if given.isdisjoint((one, kind.instead.get(one)))]
     if kind.parameters.get("joints") in lacks:
         # The interfaces follow from the joints.
         lacks = [one for one in lacks if not one.endswith(("_interfaces", "interface_name"))]
     for parameter in lacks:
         field = next((key for key, value in kind.parameters.items() if value == parameter), "")
         way_out = f"`{field}`{_why(controller, field)}" if field else f"`{parameter}` in `parameters`"
+        if parameter in kind.instead:
+            way_out += f" or `{kind.instead[parameter]}` in `parameters`"
         yield CONTROLLER_LACKS.at(controller.source, controller=name, type=controller.type, parameter=way_out)
     if controller.type in KINDS:
         for field in _FIELDS:

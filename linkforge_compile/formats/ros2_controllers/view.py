@@ -26,16 +26,16 @@ UPDATE_RATE = 100
 def controllers_view(robot: Robot) -> View:
     """Return what templates see: the parameters of the manager, and the controllers with `type` and `parameters`."""
     manager = robot.controllers.get(MANAGER)
-    stated = _typed(manager, MANAGER) if manager else {}
+    stated = typed_parameters(manager) if manager else {}
     return View(
-        manager={"update_rate": UPDATE_RATE} | stated,
+        manager=stated if "update_rate" in stated else {"update_rate": UPDATE_RATE, **stated},
         controllers=[_view(one) for one in complete_controllers(robot)],
     )
 
 
 def _view(controller: Controller) -> View:
     kind = kind_of(controller.type)
-    parameters = {**dict(_of_fields(controller, kind)), **_typed(controller, controller.type)}
+    parameters = {**dict(_of_fields(controller, kind)), **typed_parameters(controller)}
     return View(
         name=placed(controller.name, controller.source),
         type=placed(controller.type or "", controller.source, "type"),
@@ -53,10 +53,10 @@ def _of_fields(controller: Controller, kind: Kind) -> Iterator[tuple[str, object
             yield placed(name, controller.source, field), written
 
 
-def _typed(controller: Controller, declared_by: str | None) -> dict[str, object]:
+def typed_parameters(controller: Controller) -> dict[str, object]:
     """Return the parameters; where the type of one is known, quantities in SI units and numbers with decimals."""
     values = _placed(controller.parameters, controller.source, "parameters")
-    declared = PARAMETERS.get(declared_by or "")
+    declared = PARAMETERS.get(MANAGER if controller.name == MANAGER else controller.type or "")
     return values if declared is None else _converted(values, declared)
 
 
@@ -84,7 +84,7 @@ def _placed(values: Mapping[str, object], source: SourceRef | None, *path: str) 
 
 
 def _of_one_type(value: object) -> object:
-    """Return a list of whole numbers and others with decimals alone; anything else as it is."""
+    """Return a list of integers and doubles with doubles alone; anything else as it is."""
     if not isinstance(value, list | tuple):
         return value
     is_mixed = any(isinstance(item, float) for item in value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.format import Option, TemplateFormat
+from linkforge_compile.formats.format import Option, Rendering, TemplateFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,7 +49,10 @@ class Sdf(TemplateFormat):
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.sdf.limits import sdf_limits
 
-        yield from sdf_limits(robot, self._choices(options))
+        yield from sdf_limits(robot, self._choices(options), lambda: self.text(robot, Rendering(options)))
+
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        return MESHES.value(options) != "file"
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.sdf.view import robot_view

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointType
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
 from linkforge_compile.formats.sdf.layout import MODEL, Layout
 from linkforge_compile.formats.sdf.settings import Settings, joint_physics, spring_elements
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
 _TYPES = {JointType.CONTINUOUS: "revolute"}
-_X = Vector3(1.0, 0.0, 0.0)
 
 
 def joint_view(joint: Joint, layout: Layout, settings: Settings, sensors: Sequence[View], *, has_mimic: bool) -> View:
@@ -54,7 +53,7 @@ def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) 
         of_dynamics.append(text("friction", dynamics.friction, dynamics.source, "friction"))
     return parent(
         "axis",
-        text("xyz", joint.axis or _X, source, "axis"),
+        text("xyz", joint.axis or AXES["x"], source, "axis"),
         parent("limit", *of_limits),
         parent("dynamics", *of_dynamics),
         _mimic(joint, layout) if has_mimic else NOTHING,
@@ -63,7 +62,7 @@ def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) 
 
 def _mimic(joint: Joint, layout: Layout) -> Xml:
     mimic = joint.mimic
-    if mimic is None or not layout.robot.has_joint(mimic.joint):
+    if mimic is None or leader_of(joint, layout.robot) is None:
         return NOTHING
     source = mimic.source
     inner = (

@@ -12,6 +12,7 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.sensor import SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, settings_by_reference
+from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 
 MODEL = "__model__"
 """The frame of the model, where its root link is."""
-
-_WITH_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
 @dataclass(frozen=True)
@@ -94,7 +93,7 @@ class Layout:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
         if joint.type == JointType.FIXED:
             return self.body_of(joint.child) != self.body_of(joint.parent)
-        return joint.type in _WITH_AXIS
+        return joint.type in SINGLE
 
     @cached_property
     def joint_names(self) -> Mapping[str, str]:

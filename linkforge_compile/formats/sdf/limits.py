@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.geometry import Mesh
@@ -11,24 +11,31 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
-    MESH_STAYS_A_URI,
+    MIMIC_OF_ENGINE,
     NO_MIMIC_IN_SDF,
     NOT_IN_SDF,
+    STAYS_A_URI,
     WEIGHTLESS_IN_SDF,
 )
+from linkforge_compile.formats.limits import check_attributes, check_texts
+from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.check_names import check_names
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.losses import lost_parts
 from linkforge_compile.formats.sdf.meshes import MeshUris
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
+from linkforge_compile.formats.single_axis import leader_of
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
 
 
-def sdf_limits(robot: Robot, choices: SdfChoices) -> Iterator[Diagnostic]:
-    """Yield what is left out or changed in the SDF of a robot, and what Gazebo refuses."""
+def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> Iterator[Diagnostic]:
+    """Yield what `render` leaves out, changes or refuses in the SDF of a robot, and what Gazebo refuses."""
+    doubtful = doubtful_parts_of_urdf(robot)
+    yield from check_texts(robot, doubtful)
+    yield from check_attributes(doubtful.with_extras, robot, render)
     layout = Layout.of(robot)
     yield from check_names(robot, layout)
     yield from check_bodies(robot, layout)
@@ -51,17 +58,22 @@ def check_bodies(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
 
 
 def check_joints(robot: Robot, *, has_mimic: bool) -> Iterator[Diagnostic]:
-    """SDF has no planar joints, and mimic joints in its later versions."""
+    """SDF has no planar joints, and mimic joints in its later versions, which not every engine moves."""
     for joint in robot.joints:
         if joint.type == JointType.PLANAR:
             yield FREE_IN_SDF.at(joint.source, "type", joint=joint.name, link=joint.child)
-        if joint.mimic and not has_mimic:
-            yield NO_MIMIC_IN_SDF.at(joint.source, "mimic", joint=joint.name)
+        if leader_of(joint, robot):
+            code = MIMIC_OF_ENGINE if has_mimic else NO_MIMIC_IN_SDF
+            yield code.at(joint.source, "mimic", joint=joint.name)
 
 
 def check_files(robot: Robot) -> Iterator[Diagnostic]:
-    """A mesh that is not on this machine has no file that an SDF could refer to."""
+    """A mesh or texture that is not on this machine has no file that an SDF could refer to."""
     uris = MeshUris(robot, is_resolved=True)
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
-            yield MESH_STAYS_A_URI.at(mesh.source, "file", file=mesh.resource)
+            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource)
+    for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
+        texture = material.texture if material else None
+        if material and texture and "://" in texture and uris.file(texture) is None:
+            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture)

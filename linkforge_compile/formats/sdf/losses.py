@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.geometry import Transform
-from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission
@@ -21,6 +21,7 @@ from linkforge_compile.formats.sdf.settings import (
     OF_MODEL,
     settings_by_reference,
 )
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -41,6 +42,10 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
             yield "safety controllers", joint.name, joint.source, ("safety_controller",)
         if joint.calibration:
             yield "calibrations", joint.name, joint.source, ("calibration",)
+        if joint.mimic and leader_of(joint, robot) is None:
+            yield "mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source, ()
+        if joint.type == JointType.FLOATING:
+            yield from _of_floating(joint)
     for transmission in robot.transmissions:
         yield "transmissions", transmission.name, transmission.source, ()
     for sensor in robot.sensors:
@@ -53,6 +58,14 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
             for plugin in block.plugins:
                 yield "plugins of links and joints", plugin.name, plugin.source, ()
     yield from _lost_xml(robot)
+
+
+def _of_floating(joint: Joint) -> Iterator[Loss]:
+    limits, dynamics = joint.limits, joint.dynamics
+    if limits:
+        yield "limits of floating joints", joint.name, limits.source or joint.source, ()
+    if dynamics and (dynamics.damping or dynamics.friction):
+        yield "dynamics of floating joints", joint.name, dynamics.source or joint.source, ()
 
 
 def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:

@@ -15,6 +15,7 @@ from linkforge_compile.formats.sdf.links import Links
 from linkforge_compile.formats.sdf.meshes import MeshUris
 from linkforge_compile.formats.sdf.part_names import PartNames
 from linkforge_compile.formats.sdf.settings import model_elements, settings_by_reference
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
 from linkforge_compile.formats.views import View
@@ -38,7 +39,7 @@ class SdfChoices(NamedTuple):
 
 def sdf_version(robot: Robot, choices: SdfChoices) -> str:
     """Return the version of the document."""
-    return choices.version or (WITH_MIMIC if any(joint.mimic for joint in robot.joints) else COMMON)
+    return choices.version or (WITH_MIMIC if any(leader_of(joint, robot) for joint in robot.joints) else COMMON)
 
 
 def robot_view(robot: Robot, choices: SdfChoices) -> View:

@@ -32,6 +32,7 @@ class Urdf(TemplateFormat):
     keeps = "links, joints, inertias, shapes, materials, sensors, transmissions, ros2_control, Gazebo and raw XML"
     loses = "the semantic part, which is for SRDF; with --gazebo, sensors that the simulator does not have"
     is_default = True
+    has_urdf = True
     has_relative_paths = True
     options = (GAZEBO,)
 

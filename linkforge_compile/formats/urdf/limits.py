@@ -22,7 +22,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     TWO_MATERIALS,
     UNKNOWN_VERSION,
 )
-from linkforge_compile.formats.limits import check_attributes, check_texts, check_written_twice
+from linkforge_compile.formats.limits import check_attributes, check_texts, check_written_twice, undeclared_prefixes
 from linkforge_compile.formats.parts import Held, doubtful_parts_of_urdf
 from linkforge_compile.formats.urdf.view import capsules, stated_version
 from linkforge_compile.formats.xml_text import spelled
@@ -39,6 +39,7 @@ def urdf_limits(robot: Robot, gazebo: str, render: Callable[[], str]) -> Iterato
     """Yield what `render` leaves out or refuses, and what common readers refuse in what it writes."""
     doubtful = doubtful_parts_of_urdf(robot)
     yield from check_texts(robot, doubtful)
+    yield from undeclared_prefixes(robot, doubtful.with_extras)
     yield from check_written_twice(doubtful.with_extras)
     yield from check_attributes(doubtful.with_extras, robot, render)
     yield from check_capsules(robot)
