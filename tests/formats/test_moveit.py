@@ -194,7 +194,7 @@ def test_positions_are_of_the_hardware_then_of_a_state_then_the_nearest_to_0():
     [
         (
             "",
-            "{w: {type: forward_command_controller/ForwardCommandController, group: wheels}}",
+            "{w: {type: forward_command_controller/ForwardCommandController, group: wheels}, o: {type: a/B}}",
             "no controller of trajectories has 'left' and 'right'",
         ),
         (
@@ -215,6 +215,38 @@ def test_a_group_that_nothing_moves_is_reported_with_the_reason(replaced: str, c
     assert reported(text) == [f"LF7609 MoveIt executes no motion of group 'wheels': {reason}"]
     manager = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
     assert written(text, "moveit_controllers.yaml") == {"moveit_controller_manager": manager}
+
+
+def test_a_robot_without_controller_of_joint_states_is_reported():
+    arm = "{type: joint_trajectory_controller/JointTrajectoryController, group: arm}"
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{arm: {arm}}}\n") == [
+        "LF7615 no controller publishes the states of the joints, which MoveIt needs; write `joint_state_broadcaster: "
+        "{type: joint_state_broadcaster/JointStateBroadcaster}` in `controllers`"
+    ]
+    for states in ("joint_state_broadcaster/JointStateBroadcaster", "my_package/States"):
+        assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{arm: {arm}, states: {{type: {states}}}}}\n") == []
+
+
+def test_of_controllers_with_a_joint_in_common_the_first_is_the_default():
+    arm = "{type: joint_trajectory_controller/JointTrajectoryController, "
+    text = f"{ROBOT}{ARM_GROUP}controllers: {{a: {arm}group: arm}}, b: {arm}joints: [elbow]}}}}\n"
+    manager = written(text, "moveit_controllers.yaml")[MANAGER]
+    assert (manager["a"]["default"], manager["b"]["default"]) == (True, False)
+
+
+def test_misspelled_parameters_of_solvers_are_reported():
+    arm = "{chain: {base_link: base, tip_link: lower}, kinematics: {kinematics_sover: pick_ik/PickIkPlugin, mode: a}}"
+    assert reported(f"{ROBOT}semantic: {{groups: {{arm: {arm}}}}}\n") == [
+        "LF7616 MoveIt reads no 'kinematics_sover' in the `kinematics` of a group; did you mean 'kinematics_solver'?"
+    ]
+
+
+def test_a_chain_without_a_solver_is_reported():
+    group = "{chain: {base_link: base, tip_link: lower}}"
+    effector = "end_effectors: {arm: {group: arm, parent_link: base}}"
+    assert reported(f"{ROBOT}semantic: {{groups: {{arm: {group}}}, {effector}}}\n") == [
+        "LF7617 group 'arm' has no solver, because it is that of an end effector; write its `kinematics`"
+    ]
 
 
 def test_joints_without_a_command_interface_are_named():

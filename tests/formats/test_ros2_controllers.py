@@ -436,7 +436,8 @@ def test_a_joint_without_command_interface_is_reported():
     [
         (
             "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
-            "command_interfaces: [velocity], state_interfaces: [position, effrt]}",
+            "command_interfaces: [velocity], state_interfaces: [position, effrt], "
+            "parameters: {gains: {shoulder: {p: 1}, elbow: {p: 1}}}}",
             [
                 "LF7606 controller 't' does not start: joint 'elbow' has no command interface 'velocity' in "
                 "`ros2_control`",
@@ -478,7 +479,34 @@ def test_what_follows_from_a_wrong_name_is_not_reported(group: str, controllers:
     trajectory = f"{{type: joint_trajectory_controller/JointTrajectoryController, {controllers}}}"
     text = f"{ROBOT}semantic: {{groups: {{arm: {{chain: {{{group}}}}}}}}}\ncontrollers: {{t: {trajectory}}}\n"
     compilation = compile_text(f"linkforge: 1\nname: robot\n{text}", formats=("moveit",))
-    assert {one.code.id for one in compilation.diagnostics} - {"LF7601"} == {code}
+    assert {one.code.id for one in compilation.diagnostics} - {"LF7601", "LF7615"} == {code}
+
+
+def test_joints_that_nothing_moves_without_gains_are_reported():
+    start = f"{ROBOT}controllers: {{o: {{type: a/B}}, t: {{type: {TRAJECTORY}, joints: [left, right], parameters: "
+    assert reported(f"{start}{{gains: {{left: {{p: 1}}}}}}}}}}\n") == [
+        "LF7614 controller 't' does not move joint 'right': it commands velocity alone, and its `gains` are 0; write "
+        "`right: {p: …}` in `gains` of its `parameters`"
+    ]
+    assert reported(f"{start}{{gains.left.p: 1.0, gains: {{right: {{ff_velocity_scale: 1}}}}}}}}}}\n") == []
+    assert reported(f"{start}{{open_loop_control: true}}}}}}\n") == []
+
+
+@pytest.mark.parametrize(
+    ("type_", "intended"),
+    [
+        ("joint_trajectory_controller/JointTrajectoryControler", TRAJECTORY),
+        ("joint_trajectory_controler/JointTrajectoryController", TRAJECTORY),
+        ("position_controllers/GripperActionControler", "position_controllers/GripperActionController"),
+        ("gpio_controllers/GpioController", "gpio_controllers/GpioCommandController"),
+        ("ur_controllers/ScaledJointTrajectoryController", None),
+        ("my_joint_trajectory_controller/JointTrajectoryController", None),
+        ("pid_controller/PidController", None),
+    ],
+)
+def test_misspelled_classes_of_ros2_controllers_are_reported(type_: str, intended: str | None):
+    expected = [f"LF7613 there is no controller class '{type_}'; did you mean '{intended}'?"] if intended else []
+    assert reported(f"{ROBOT}controllers: {{o: {{type: {type_}}}}}\n") == expected
 
 
 def test_a_robot_without_hardware_has_no_controllers():

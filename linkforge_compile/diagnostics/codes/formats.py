@@ -262,6 +262,28 @@ NOTHING_EXECUTES = Code(
     subject="group",
     grouped_by=("reason",),
 )
+MISSPELLED_CLASS = Code("LF7613", _W, "there is no controller class '{type}'; did you mean '{intended}'?")
+NO_GAINS = Code(
+    "LF7614",
+    _W,
+    "controller '{controller}' does not move joint '{joint}': it commands {interface} alone, and its `gains` are 0; "
+    "write `{joint}: {{p: …}}` in `gains` of its `parameters`",
+    subject="joint",
+    grouped_by=("controller",),
+)
+NO_JOINT_STATES = Code(
+    "LF7615",
+    _W,
+    "no controller publishes the states of the joints, which MoveIt needs; write `joint_state_broadcaster: "
+    "{{type: joint_state_broadcaster/JointStateBroadcaster}}` in `controllers`",
+)
+UNKNOWN_OF_SOLVER = Code("LF7616", _W, "MoveIt reads no '{name}' in the `kinematics` of a group")
+NO_SOLVER = Code(
+    "LF7617",
+    _W,
+    "group '{group}' has no solver, because it is that of an end effector; write its `kinematics`",
+    subject="group",
+)
 UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
 WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 STATED_TWICE = Code(

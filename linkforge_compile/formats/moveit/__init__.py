@@ -61,10 +61,16 @@ class MoveIt(Format):
 
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.moveit.collisions import check_adjacent_links
-        from linkforge_compile.formats.moveit.limits import check_execution
+        from linkforge_compile.formats.moveit.limits import check_execution, check_joint_states, check_solvers
 
         others = (one.limits(robot, options) for one in _WHOLE_FILES.values())
-        return chain(*others, check_execution(robot), check_adjacent_links(robot))
+        return chain(
+            *others,
+            check_solvers(robot),
+            check_joint_states(robot),
+            check_execution(robot),
+            check_adjacent_links(robot),
+        )
 
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
         from linkforge_compile.formats.yaml_document import render_yaml

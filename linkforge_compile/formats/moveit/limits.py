@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics.codes.formats import NO_GROUP_TO_PLAN, NOTHING_EXECUTES
+from linkforge_compile.diagnostics.codes.formats import (
+    NO_GROUP_TO_PLAN,
+    NO_JOINT_STATES,
+    NO_SOLVER,
+    NOTHING_EXECUTES,
+    UNKNOWN_OF_SOLVER,
+)
 from linkforge_compile.diagnostics.enumerations import listed
-from linkforge_compile.formats.groups import faulty_groups, joints_by_group
-from linkforge_compile.formats.moveit.view import executing_controllers
-from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, has_faulty_names
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.formats.groups import chain_groups, faulty_groups, joints_by_group
+from linkforge_compile.formats.moveit.view import SOLVER_PARAMETERS, executing_controllers, moveit_view
+from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers, has_faulty_names
+from linkforge_compile.formats.ros2_controllers.kinds import KINDS, OTHER_CLASSES, STATES, misspelled_class
+from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -23,9 +32,29 @@ def missing_groups(robot: Robot) -> Diagnostic | None:
     return NO_GROUP_TO_PLAN.at(robot.source, "name", robot=robot.name)
 
 
+def check_solvers(robot: Robot) -> Iterator[Diagnostic]:
+    """Names of a solver's parameters are spelled as MoveIt reads them, and chains of several joints have a solver."""
+    joints, with_solver = joints_by_group(robot), {view.name for view in moveit_view(robot).groups}
+    chains = chain_groups(robot)
+    for group in robot.semantic.groups if joints else ():
+        for name in group.kinematics:
+            if name not in SOLVER_PARAMETERS and nearest(name, SOLVER_PARAMETERS):
+                place = ("kinematics", Key(name))
+                yield UNKNOWN_OF_SOLVER.at(group.source, *place, name=name, near=SOLVER_PARAMETERS)
+        if group.name not in with_solver and group.name in chains and len(joints[group.name]) > 1:
+            yield NO_SOLVER.at(group.source, group=group.name)
+
+
+def check_joint_states(robot: Robot) -> Iterator[Diagnostic]:
+    """A controller publishes the states of the joints; one of a class that is not known may do so."""
+    types = {one.type for one in complete_controllers(robot)}
+    if robot.ros2_controls and STATES not in types and types <= {*KINDS, *OTHER_CLASSES}:
+        yield NO_JOINT_STATES.at(robot.source, "controllers")
+
+
 def check_execution(robot: Robot) -> Iterator[Diagnostic]:
     """The joints of each planning group are those of controllers that MoveIt can send motions to."""
-    if any(has_faulty_names(robot, one) for one in robot.controllers):
+    if any(has_faulty_names(robot, one) or misspelled_class(one.type) for one in robot.controllers):
         return
     controlled = {name for one in executing_controllers(robot) for name in one.joints}
     groups, faulty, hardware = joints_by_group(robot), faulty_groups(robot), commanded_joints(robot)

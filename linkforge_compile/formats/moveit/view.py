@@ -29,6 +29,9 @@ _SOLVER = {
 }
 """What the MoveIt Setup Assistant writes."""
 
+SOLVER_PARAMETERS = (*_SOLVER, "kinematics_solver_attempts", "kinematics_solver_ik_links")
+"""The parameters of a group that MoveIt itself reads; all others are those of a solver."""
+
 _DECIMALS = frozenset(_SOLVER) | {"epsilon", "orientation_vs_position"}
 """Parameters that the loader of solvers, and KDL's, declare as numbers with decimals."""
 
@@ -45,7 +48,7 @@ def moveit_view(robot: Robot) -> View:
     """Return what templates see: the groups with solvers, the controllers with actions, and the initial positions."""
     return View(
         groups=list(_groups(robot)),
-        controllers=[_controller(one) for one in executing_controllers(robot)],
+        controllers=list(_controllers(robot)),
         initial_positions=list(_initial_positions(robot)),
     )
 
@@ -72,11 +75,14 @@ def executing_controllers(robot: Robot) -> tuple[Controller, ...]:
     return tuple(one for one in complete_controllers(robot) if one.type in _ACTIONS and one.joints)
 
 
-def _controller(controller: Controller) -> View:
-    kind, action = _ACTIONS[controller.type or ""]
-    return View(
-        name=placed(controller.name, controller.source), type=kind, action=action, joints=list(controller.joints)
-    )
+def _controllers(robot: Robot) -> Iterator[View]:
+    """Yield the controllers with their actions; of those with a joint in common, the first is the default."""
+    taken: set[str] = set()
+    for one in executing_controllers(robot):
+        kind, action = _ACTIONS[one.type or ""]
+        name, joints = placed(one.name, one.source), list(one.joints)
+        yield View(name=name, type=kind, action=action, joints=joints, is_default=taken.isdisjoint(joints))
+        taken.update(joints)
 
 
 def _initial_positions(robot: Robot) -> Iterator[View]:

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
+from linkforge_compile.diagnostics.suggest import nearest
+
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 OLD_GRIPPER = "position_controllers/GripperActionController"
@@ -21,6 +23,9 @@ STATES = "joint_state_broadcaster/JointStateBroadcaster"
 DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
 IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
 FORCE_TORQUE = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
+
+_TYPING_ERRORS = 2
+"""By how many letters a misspelled class is shorter or longer; other packages have longer names."""
 
 JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
 """The fields of a controller with names of joints."""
@@ -103,9 +108,42 @@ KINDS: Mapping[str, Kind] = {
     ),
 }
 
+OTHER_CLASSES = (
+    "ackermann_steering_controller/AckermannSteeringController",
+    "admittance_controller/AdmittanceController",
+    "battery_state_broadcaster/BatteryStateBroadcaster",
+    "bicycle_steering_controller/BicycleSteeringController",
+    "chained_filter_controller/ChainedFilter",
+    "forward_command_controller/MultiInterfaceForwardCommandController",
+    "gpio_controllers/GpioCommandController",
+    "gps_sensor_broadcaster/GPSSensorBroadcaster",
+    "magnetometer_broadcaster/MagnetometerBroadcaster",
+    "mecanum_drive_controller/MecanumDriveController",
+    "motion_primitives_controllers/MotionPrimitivesForwardController",
+    "omni_wheel_drive_controller/OmniWheelDriveController",
+    "pid_controller/PidController",
+    "pose_broadcaster/PoseBroadcaster",
+    "range_sensor_broadcaster/RangeSensorBroadcaster",
+    "state_interfaces_broadcaster/StateInterfacesBroadcaster",
+    "tricycle_controller/TricycleController",
+    "tricycle_steering_controller/TricycleSteeringController",
+)
+"""The other classes of ros2_controllers, which have the usual names."""
+
 ANY_KIND = Kind(_ALL_FIELDS)
 """What any other class is given: all that a controller has, under the usual names."""
 
 
 def kind_of(type_: str | None) -> Kind:
     return KINDS.get(type_ or "", ANY_KIND)
+
+
+def misspelled_class(type_: str | None) -> str | None:
+    """Return the class of ros2_controllers that a type misspells; None for a class of another package."""
+    if not type_ or type_ in KINDS or type_ in OTHER_CLASSES:
+        return None
+    near = nearest(type_, (*KINDS, *OTHER_CLASSES))
+    if near is None:
+        return None
+    is_of_package = type_.split("/")[0] == near.split("/")[0]
+    return near if is_of_package or abs(len(type_) - len(near)) <= _TYPING_ERRORS else None

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.diagnostics.codes.formats import (
     CONTROLLER_LACKS,
+    MISSPELLED_CLASS,
     NO_CONTROLLER_FOR_JOINT,
+    NO_GAINS,
     NO_HARDWARE,
     NOT_OF_CONTROLLER,
     UNKNOWN_PARAMETER,
@@ -21,7 +23,14 @@ from linkforge_compile.formats.ros2_controllers.complete import (
     has_faulty_names,
 )
 from linkforge_compile.formats.ros2_controllers.interfaces import check_interfaces
-from linkforge_compile.formats.ros2_controllers.kinds import JOINT_FIELDS, KINDS, STATES, kind_of
+from linkforge_compile.formats.ros2_controllers.kinds import (
+    JOINT_FIELDS,
+    KINDS,
+    STATES,
+    TRAJECTORY,
+    kind_of,
+    misspelled_class,
+)
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
 from linkforge_compile.formats.ros2_controllers.refused import check_refused
 from linkforge_compile.source import Key
@@ -50,6 +59,7 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
         yield from _check_types(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
     sound = [one for one in controllers if not has_faulty_names(robot, one)]
     for controller in sound:
+        yield from _check_class(controller)
         yield from _check_parameters(controller)
         yield from _check_types(controller, controller.type or "", _joints(controller))
         yield from check_interfaces(robot, controller)
@@ -60,6 +70,22 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     for joint in hardware.values() if is_known and sound == list(controllers) and not faulty_groups(robot) else ():
         if joint.name not in used:
             yield NO_CONTROLLER_FOR_JOINT.at(joint.source, joint=joint.name)
+
+
+def _check_class(controller: Controller) -> Iterator[Diagnostic]:
+    """Report a misspelled class, and joints of a trajectory controller that nothing moves without gains."""
+    if intended := misspelled_class(controller.type):
+        yield MISSPELLED_CLASS.at(controller.source, "type", type=controller.type, intended=intended)
+    commands, parameters = tuple(map(str, controller.command_interfaces)), controller.parameters
+    is_open = commands == ("velocity",) and parameters.get("open_loop_control")
+    if controller.type != TRAJECTORY or commands not in {("effort",), ("velocity",)} or is_open:
+        return
+    gains = parameters.get("gains")
+    with_gains = {name.split(".")[0] for name in gains} if isinstance(gains, Mapping) else set()
+    dotted = {name.split(".")[1] for name in parameters if name.startswith("gains.")}
+    for joint in controller.joints:
+        if joint not in with_gains | dotted:
+            yield NO_GAINS.at(controller.source, controller=controller.name, joint=joint, interface=commands[0])
 
 
 def _check_parameters(controller: Controller) -> Iterator[Diagnostic]:
