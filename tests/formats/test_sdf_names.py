@@ -112,9 +112,7 @@ def test_a_contact_sensor_without_its_collision_is_reported():
     ],
 )
 def test_a_reserved_name_is_refused(text: str, name: str):
-    assert reported(text.format(name=name)) == [
-        f"LF7505 SDF has the name '{name}' for a frame of its own; rename this one"
-    ]
+    assert reported(text.format(name=name)) == [f"LF7505 '{name}' is reserved in SDF; rename this one"]
 
 
 @pytest.mark.parametrize("name", ["world", "__m__"])

@@ -26,7 +26,7 @@ _COMMANDED = ("joints", "left_wheels", "right_wheels")
 
 
 def missing_hardware(robot: Robot) -> Diagnostic | None:
-    """Return why a robot has no controllers; None where it has."""
+    """Return why a robot has no controllers; None if it has some."""
     if robot.ros2_controls or robot.controllers:
         return None
     return NO_HARDWARE.at(robot.source, "name", robot=robot.name)
