@@ -79,16 +79,17 @@ def import_urdf(
     or any with `allow_outside`. `output` is the folder of the spec: meshes next to the URDF but not there are reported.
     `text` is the URDF if it is no file; `path` is its name then, and relative paths start in the folder of `path`.
     """
-    settings = Settings(arguments, packages, allow_outside=allow_outside, output=Path(output) if output else None)
-    urdf = _Urdf(Path(path), text)
+    settings = Settings(arguments, packages, allow_outside=allow_outside)
+    urdf = _Urdf(Path(path), text, Path(output) if output else None)
     return on_fresh_stack(lambda: _imported(urdf, None if srdf is None else Path(srdf), settings))
 
 
 class _Urdf(NamedTuple):
-    """The URDF to import: a file, or a text with that name."""
+    """The URDF to import: a file, or a text with that name; `output` is the folder of the spec, None if unknown."""
 
     path: Path
     text: str | None
+    output: Path | None
 
 
 class ReadBack(NamedTuple):
@@ -174,7 +175,7 @@ def _imported_text(
     semantic = _open_srdf(srdf, arguments, loader, sink) if srdf else None
     declared = semantic.arguments if semantic else None if srdf else frozenset()
     if urdf.text is None and is_xacro(urdf.path):
-        folder = settings.output or urdf.path.parent
+        folder = urdf.output or urdf.path.parent
         found = _read_xacro(urdf.path, arguments, declared, loader, sink, spec_folder=folder)
     else:
         found = _read_urdf(urdf, arguments, declared, loader, sink)
@@ -193,7 +194,7 @@ def _imported_text(
     sink.report_all(compiled.diagnostics)
     # A robot with an error contains replacement values, which are in neither of its documents.
     if compiled.robot is not None and not sink.has_errors:
-        _check_imported(whole, compiled.robot, settings.output, sink)
+        _check_imported(whole, compiled.robot, urdf.output, sink)
     if sink.places_of(_WRONG_ARGUMENTS):
         return None
     text = _spec_text(whole, sink) if text is None else text
@@ -212,12 +213,12 @@ def _check_imported(whole: Imported, robot: Robot, output: Path | None, sink: Di
     sink.report_all(check_written_twice(doubtful_parts_of_urdf(robot).with_extras))
     sink.report_all(_losses(whole, robot, sink.places_of(LOSSES)))
     if output is not None:
-        sink.report_all(check_relative_mesh_paths(robot, output, MESH_BESIDE_THE_URDF))
+        sink.report_all(check_relative_mesh_paths(robot, output, MESH_BESIDE_THE_URDF, document="spec"))
 
 
 def _faults_of_text(text: str, urdf: Path, settings: Settings) -> Iterator[Diagnostic]:
     """Yield the errors of a spec as it is written, at its lines, which its tree did not have."""
-    compiled = compile_source(text, "<spec>", urdf.parent, settings._replace(parameters=None, output=None))
+    compiled = compile_source(text, "<spec>", urdf.parent, settings._replace(parameters=None))
     yield from (one for one in compiled.diagnostics if one.severity is Severity.ERROR)
 
 
@@ -261,7 +262,7 @@ _Names = Collection[str] | None
 def _read_urdf(urdf: _Urdf, arguments: Arguments, declared: _Names, loader: Loader, sink: Diagnostics) -> _Read | None:
     from linkforge_compile.importers.urdf import read_urdf
 
-    named, text = urdf
+    named, text = urdf.path, urdf.text
     file = loader.open_xml(named, sink) if text is None else loader.add_xml(str(named), text)
     robot = read_urdf(file, sink, keeps_refused=True) if file else None
     # Reported after reading: a xacro without that suffix could accept them, and is reported as such.

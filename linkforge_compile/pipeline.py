@@ -5,7 +5,7 @@ Stages pass values on and report faults to the sink; no stage stops at the first
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -82,9 +82,9 @@ def compile_file(
         ValueError: for an unknown format or option, and another `gazebo` than `gz` or `classic`.
 
     """
-    folder = Path(output) if output is not None else None
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folder, allow_outside, formats)
+    folders = {} if output is None else {_format_with_paths(formats): Path(output)}
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, folders, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -103,7 +103,7 @@ def compile_text(
 ) -> Compilation:
     """Compile a spec given as text; `name` is its name in diagnostics, `folder` is where relative paths start."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.ERROR, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.ERROR, {}, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -120,7 +120,7 @@ def check_file(
 ) -> Compilation:
     """Report what is wrong with a spec file; what depends on a required parameter without a value is not checked."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, {}, allow_outside, formats)
     return compile_path(path, settings)
 
 
@@ -139,7 +139,7 @@ def check_text(
 ) -> Compilation:
     """Report what is wrong with a spec given as text, as `check_file` does."""
     options, formats = {"gazebo": gazebo, **options}, tuple(formats)
-    settings = Settings(parameters, packages, variant, options, Unset.NOTE, None, allow_outside, formats)
+    settings = Settings(parameters, packages, variant, options, Unset.NOTE, {}, allow_outside, formats)
     return compile_source(text, name, folder, settings)
 
 
@@ -200,7 +200,7 @@ class Settings(NamedTuple):
     """How to compile a spec.
 
     `options` are those of the output formats, and `formats` the ones whose limits are reported, none for the default
-    ones. `output` is the folder of their documents, and `folders` are those of some formats; None if it is not known.
+    ones. `folders` are those where relative paths of meshes start, by the name of the format, as far as they are known.
     `whole` is the budget that this compile shares with others.
     """
 
@@ -209,10 +209,9 @@ class Settings(NamedTuple):
     variant: str | None = None
     options: Options = NO_OPTIONS
     unset: Unset = Unset.ERROR
-    output: Path | None = None
+    folders: Mapping[str, Path] = MappingProxyType({})
     allow_outside: bool = False
     formats: tuple[str, ...] = ()
-    folders: Mapping[str, Path] = MappingProxyType({})
     whole: Budget | None = None
 
     @property
@@ -311,20 +310,17 @@ def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSol
     if lowered.robot is not None:
         for one in formats_or_default(settings.formats):
             sink.report_all(one.limits(lowered.robot, settings.options))
-        sink.report_all(_misplaced_meshes(lowered.robot, spec, settings))
+        if settings.folders:
+            from linkforge_compile.formats.relative_paths import check_mesh_paths_of_formats
+
+            folders, options = settings.folders, settings.options
+            sink.report_all(check_mesh_paths_of_formats(lowered.robot, folders, options, start=spec.folder))
     return lowered.robot
 
 
-def _misplaced_meshes(robot: Robot, spec: SpecFile, settings: Settings) -> Iterator[Diagnostic]:
-    """Yield what is wrong with relative paths of meshes, once for each folder of outputs."""
-    documents: dict[Path, str] = {}
-    for one in formats_or_default(settings.formats):
-        if one.has_relative_paths and (folder := settings.folders.get(one.name, settings.output)):
-            documents.setdefault(folder, one.name.upper())
-    for folder, document in documents.items():
-        from linkforge_compile.formats.relative_paths import check_relative_mesh_paths
-
-        yield from check_relative_mesh_paths(robot, folder, start=spec.folder, document=document)
+def _format_with_paths(formats: Sequence[str]) -> str:
+    """Return the first format with relative paths, URDF if none has."""
+    return next((one.name for one in formats_or_default(formats) if one.has_relative_paths), "urdf")
 
 
 def check_alone(meshes: MeshSolids, spec: SpecFile, loader: Loader) -> Compilation:

@@ -29,7 +29,7 @@ MAY_IMPORT = {
     "schema": "source diagnostics syntax units resources expressions",
     "core": "source units roots",
     "compilation": "diagnostics core",
-    "importers": "banner source diagnostics limits units syntax core compilation",
+    "importers": "banner source diagnostics limits units syntax core compilation roots paths",
     "load": "source diagnostics limits syntax schema importers roots paths compilation",
     "expand": "source diagnostics limits units syntax schema expressions importers load paths",
     "listing": "source diagnostics units syntax expressions importers load expand roots paths",
@@ -168,6 +168,23 @@ def test_modules_and_functions_are_short():
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 lines = node.end_lineno - node.lineno + 1
                 assert lines <= MOST_LINES_OF_FUNCTION, f"{file}:{node.lineno}: '{node.name}' is too long: split it"
+
+
+GUIDE = (PACKAGE.parent / "docs/contributing.md").read_text("utf-8")
+NEW_FILES = {"linkforge_compile/cli/commands/links.py", "tests/cli/test_links.py"}
+"""Files that the guide creates in an example."""
+
+
+def test_the_guide_has_a_row_for_each_package():
+    rows = re.findall(r"^\| (.*?) \|", GUIDE.partition("| package |")[2].partition("\n\n")[0], re.MULTILINE)
+    named = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    assert named == {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+
+
+def test_files_in_the_guide_exist():
+    folders = (PACKAGE.parent, PACKAGE)
+    for name in {*re.findall(r"`([\w./]+/\w+\.\w+(?:\.j2)?)`", GUIDE)} - NEW_FILES:
+        assert any((folder / name).exists() for folder in folders), name
 
 
 # The layout that the project prescribes, and further folders.

@@ -14,7 +14,7 @@ import yaml
 
 from linkforge_compile import __version__
 from linkforge_compile.cli.targets import name_of
-from linkforge_compile.formats import FORMATS
+from linkforge_compile.formats import FORMATS, format_named
 from tests.conftest import ROOT
 from tests.programs import program
 
@@ -48,9 +48,9 @@ def linkforge(tmp_path_factory: pytest.TempPathFactory) -> Linkforge:
 class Workspace:
     """The package in a workspace as colcon lays one out, in a folder with a space, and its build."""
 
-    def __init__(self, folder: Path, generator: str, linkforge: Linkforge) -> None:
+    def __init__(self, folder: Path, generator: str, linkforge: Linkforge, package: Path = PACKAGE) -> None:
         self.source, self.build, self.prefix = (folder / name for name in ("src/pan_tilt", "build", "install"))
-        shutil.copytree(PACKAGE, self.source)
+        shutil.copytree(package, self.source)
         ament = folder / "ros" / "share" / "ament_cmake" / "cmake"
         ament.mkdir(parents=True)
         (ament / "ament_cmakeConfig.cmake").write_text(AMENT)
@@ -128,6 +128,16 @@ def test_the_package_installs_the_robots_that_its_specs_compile_to(workspace: Wo
     assert str(workspace.source) not in sim
 
 
+def test_the_package_for_moveit_installs_its_configuration(tmp_path: Path, linkforge: Linkforge):
+    workspace = Workspace(tmp_path, "Ninja", linkforge, ROOT / "examples" / "13_moveit_package")
+    workspace.configure()
+    assert workspace.make() == {"picker"}
+    workspace.install()
+    share = workspace.prefix / "share" / "picker_moveit_config"
+    installed = {path.relative_to(share).as_posix() for path in share.rglob("*") if path.is_file()}
+    assert installed == {*format_named("moveit").files, "launch/move_group.launch.py", "package.xml"}
+
+
 @by_both
 def test_what_a_robot_is_made_from_builds_it_again_and_nothing_else_does(workspace: Workspace, linkforge: Linkforge):
     assert workspace.make() == BOTH
@@ -199,6 +209,7 @@ def script(folder: Path, text: str, *words: str) -> subprocess.CompletedProcess[
         ("PARAMS reach:=1 FORMAT urdf", "PARAMS takes NAME:=VALUE, found 'FORMAT'"),
         ("FORMATS xyz", f"FORMATS takes {NAMES}, found 'xyz'"),
         ("BASE loose", "BASE takes fixed or free, found 'loose'"),
+        ("NESTED true", "NESTED takes no or yes, found 'true'"),
         ("GAZEBO ignition", "GAZEBO takes gz or classic, found 'ignition'"),
         ("FORMATS INSTALL", "no value comes after FORMATS"),
         ("NAME ../arm", "NAME is that of files in the build folder, without their ending; found '../arm'"),
@@ -272,7 +283,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     )
     echo.chmod(0o755)
     (tmp_path / "parts").mkdir()
-    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic PACKAGES parts=parts INSTALL'
+    add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic NESTED yes'
+    add += " PACKAGES parts=parts INSTALL"
     text = f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
     assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
     build = subprocess.run(
@@ -281,7 +293,8 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     lines = build.stdout.splitlines()
     assert lines[lines.index("-p") : lines.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
-        *("--variant", "sim", "--gazebo", "classic", "--installed-in", f"urdf={tmp_path / 'robots'}"),
+        *("--variant", "sim", "--gazebo", "classic", "--nested"),
+        *("--installed-in", f"urdf={tmp_path / 'robots'}"),
         *("--format", "urdf"),
     ]
 

@@ -20,6 +20,7 @@ import yaml
 from lxml import etree
 
 from linkforge_compile import CompileError, formats
+from linkforge_compile.cli.main import main
 from tests.conftest import ROOT
 from tests.formats.example_formats import Folder, Joints
 
@@ -432,3 +433,54 @@ def test_the_controllers_of_the_examples_are_those_of_the_launched_robot(
     assert "mock_components/GenericSystem" in description["robot_description"]
     parameters = yaml.safe_load(Path(controllers).read_text())
     assert parameters["head_controller"]["ros__parameters"]["joints"] == ["pan_turn", "tilt_turn"]
+
+
+MOVEIT = ROOT / "examples" / "13_moveit_package"
+
+
+@pytest.fixture
+def moveit_nodes(ros: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """The nodes of the example for MoveIt, with the configuration as it is installed."""
+    pytest.importorskip("moveit_configs_utils")
+    share = tmp_path / "share" / "picker_moveit_config"
+    shutil.copytree(MOVEIT / "launch", share / "launch")
+    spec = MOVEIT / "robots" / "picker.robot.yaml"
+    assert main(["compile", str(spec), "--format", "moveit", "--strict", "-o", str(share)]) == 0
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    description = runpy.run_path(str(share / "launch" / "move_group.launch.py"))["generate_launch_description"]()
+    return list(nodes_of(description))
+
+
+def nodes_of(description: object) -> Iterator[object]:
+    for entity in description.entities:
+        if hasattr(entity, "entities"):
+            yield from nodes_of(entity)
+        elif hasattr(entity, "node_package"):
+            yield entity
+
+
+def test_the_launch_file_for_moveit_starts_all_that_a_plan_needs(ros: Ros, moveit_nodes: list[object]):
+    context = ros.launch.LaunchContext()
+    publisher, manager, arm, broadcaster, move_group, _ = moveit_nodes
+    assert (arm.node_executable, broadcaster.node_executable) == ("spawner", "spawner")
+    (controllers,) = evaluated(context, manager)
+    loaded = yaml.safe_load(Path(controllers).read_text("utf-8"))["controller_manager"]["ros__parameters"]
+    assert {"arm_controller", "joint_state_broadcaster"} <= loaded.keys()
+    given, _ = evaluated(context, move_group)
+    urdf, srdf = (etree.fromstring(given[f"robot_description{name}"].encode()) for name in ("", "_semantic"))
+    assert evaluated(context, publisher)[0]["robot_description"] == given["robot_description"]
+    joints = [joint.get("name") for joint in urdf.iter("joint") if joint.get("type") == "revolute"]
+    assert given["moveit_simple_controller_manager.arm_controller.joints"] == joints
+    assert given["moveit_simple_controller_manager.controller_names"] == ["arm_controller"]
+    groups = [f"robot_description_kinematics.{group.get('name')}.kinematics_solver" for group in srdf.iter("group")]
+    assert [given[group] for group in groups] == ["kdl_kinematics_plugin/KDLKinematicsPlugin"]
+    assert all(given[f"robot_description_planning.joint_limits.{joint}.max_acceleration"] for joint in joints)
+    assert given["robot_description_planning.cartesian_limits.max_trans_vel"] > 0
+
+
+def test_the_package_for_moveit_depends_on_what_it_starts(moveit_nodes: list[object]):
+    manifest = etree.parse(MOVEIT / "package.xml")
+    packages = {one.text for one in manifest.iter("exec_depend")}
+    assert {node.node_package for node in moveit_nodes} <= packages
+    configuration = yaml.safe_load((MOVEIT / "robots" / "picker.robot.yaml").read_text("utf-8"))
+    assert {one["type"].partition("/")[0] for one in configuration["controllers"].values()} <= packages

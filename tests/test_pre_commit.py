@@ -60,8 +60,8 @@ class Repository:
 def write_hooks(folder: Path) -> None:
     """Write a configuration with our hooks; where they come from a repository, pre-commit installs it."""
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
-    arguments = {"linkforge-uptodate": ["cell.robot.yaml", "-o", "urdf/"]}
-    own = [{**hook, "language": "system", "args": arguments.get(hook["id"], [])} for hook in hooks]
+    arguments = {"linkforge-check": [], "linkforge-uptodate": ["cell.robot.yaml", "-o", "urdf/"]}
+    own = [{**hook, "language": "system", "args": arguments[hook["id"]]} for hook in hooks if hook["id"] in arguments]
     (folder / ".pre-commit-config.yaml").write_text(yaml.safe_dump({"repos": [{"repo": "local", "hooks": own}]}))
 
 

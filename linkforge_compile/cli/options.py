@@ -87,6 +87,10 @@ def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = ""
     add_package_option(parser)
     add_outside_option(parser)
     for option in declared_options():
+        if option.is_flag:
+            name, (off, on) = f"--{option.name}", option.choices
+            parser.add_argument(name, action="store_const", const=on, default=off, help=option.help)
+            continue
         parser.add_argument(f"--{option.name}", choices=option.choices, default=option.default, help=option.help)
 
 
@@ -184,7 +188,7 @@ def compile_spec(
 ) -> Compilation:
     """Compile a spec with the options of `add_spec_options`.
 
-    `variant` is the one where the options may list several. `folders` are those of the documents of some formats.
+    `variant` is the one where the options may list several. `folders` are where relative paths start, by format.
     `text` is the content of a spec that was read already, because it can be read only once. `formats` are the
     requested ones.
     """

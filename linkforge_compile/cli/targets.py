@@ -46,20 +46,22 @@ class Targets(NamedTuple):
         )
 
     def folders(self, installed_in: Sequence[str]) -> Mapping[str, Path]:
-        """Return the final folder of each format's document, as far as it is known.
+        """Return the folders where relative paths in the documents start, by format, as far as they are known.
 
-        `installed_in` has the folder of all of them, or `FORMAT=FOLDER`.
+        `installed_in` has the final folder of all of them, or `FORMAT=FOLDER`.
         """
+        finals: dict[str, Path] = {}
         names = [one.name for one in formats.FORMATS]
-        folders = {name: path.parent for name, path in self.paths.items() if path is not None}
-        of_formats: dict[str, Path] = {}
         for word in installed_in:
             name, equals, folder = word.partition("=")
-            if equals and name in names:
-                of_formats[name] = Path(folder)
-            else:
-                folders = dict.fromkeys(names, Path(word))
-        return {**folders, **of_formats}
+            is_of_one = bool(equals) and name in names
+            finals |= {name: Path(folder)} if is_of_one else dict.fromkeys(names, Path(word)) | finals
+        folders = {}
+        for one in map(formats.format_named, self.formats):
+            path = Path(finals[one.name], "" if one.files else "NAME") if one.name in finals else self.paths[one.name]
+            if path and one.has_relative_paths:
+                folders[one.name] = one.folder_of_documents(path)
+        return folders
 
     def without(self, names: Collection[str]) -> Targets:
         paths = {name: path for name, path in self.paths.items() if name not in names}

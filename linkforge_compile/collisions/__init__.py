@@ -6,7 +6,8 @@ Each module imports only those above it:
     meshes     find and read the meshes of collisions
     pairs      the pairs of links: which are adjacent, and which can be compared at all
     collider   compute which pairs collide at some positions, with Pinocchio and coal
-    sampling   sample positions in blocks, in several processes, and give each pair its reason
+    blocks     search blocks of samples for collisions, in this process or in several
+    sampling   sample positions, and give each pair its reason
     modules    which modules declare pairs of their own, so that they are not sampled inside
     matrix     put together what is declared and what is found
     section    the text of `disabled_collisions`

@@ -18,6 +18,8 @@ from linkforge_compile.roots import ANYWHERE, is_file
 if TYPE_CHECKING:
     from coal import BVHModelBase
 
+_PACKAGE = "package://"
+
 
 def find_meshes(robot: Robot, sink: Diagnostics) -> dict[str, Path]:
     """Return the files of the meshes of collisions, as they are written; report those that cannot be read."""
@@ -62,8 +64,9 @@ def _collision_meshes(robot: Robot) -> Iterator[Mesh]:
 def _unknown(mesh: Mesh, path: Path | None, *, is_forbidden: bool) -> Diagnostic:
     if is_forbidden:
         reason, way_out = "is outside of the folders that a spec may read", "use --allow-outside"
-    elif mesh.resource.startswith("package://"):
-        reason, way_out = "is not found", "name the folder of its package with --package NAME=PATH"
+    elif path is None and mesh.resource.startswith(_PACKAGE):
+        package = mesh.resource.removeprefix(_PACKAGE).partition("/")[0]
+        reason, way_out = "is not found", f"name the folder of its package with --package {package}=PATH"
     else:
         reason, way_out = "is not found", "correct its path"
     notes = [Note(f"looked for it at {path}")] if path else []

@@ -174,7 +174,7 @@ class Parameters(Spec):
 
 @dataclass(frozen=True)
 class Data(Spec):
-    """A mapping of values whose types are kept: numbers, truths, texts, and lists and mappings of them."""
+    """A mapping of values whose types are kept: numbers, booleans, texts, and lists and mappings of them."""
 
 
 _TUPLES = (Vector, Colour)

@@ -9,7 +9,7 @@ from linkforge_compile.diagnostics.codes.schema import WRONG_KIND
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.expand_tree import expand_part
-from linkforge_compile.expand.long_forms import CHOICES, is_set, long_form, long_object
+from linkforge_compile.expand.long_forms import excluded_keys, is_set, long_form, long_object
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.schema.shapes import Shape, shapes
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, is_null
@@ -130,8 +130,7 @@ def merge(default: YamlNode, value: YamlNode, shape: Shape) -> YamlNode:
         return YamlList((merge(below.items[0], above.items[0], shape.item),), value.span)
     if not isinstance(below, YamlMap) or not isinstance(above, YamlMap):
         return value
-    choices = CHOICES.get(shape.title, ())
-    rivals = choices if any(is_set(above.get(name)) for name in choices) else ()
+    excluded = excluded_keys(above, shape)
     entries = dict(above.entries)
     for entry in below:
         if is_set(above.get(entry.name)):
@@ -139,7 +138,7 @@ def merge(default: YamlNode, value: YamlNode, shape: Shape) -> YamlNode:
             merged = merge(entry.value, own.value, shape.under(entry.name))
             is_merged = isinstance(merged, YamlMap) and isinstance(entry.value, YamlMap)
             entries[entry.name] = YamlEntry(own.key, merged, None if is_merged else entry)
-        elif entry.name not in rivals:
+        elif entry.name not in excluded:
             entries[entry.name] = entry
     faults = {one.name: one.value for one in below if isinstance(one.value, YamlFault)}
     return YamlMap({one.name: _with_faults(faults, one) for one in entries.values()} if faults else entries, above.span)

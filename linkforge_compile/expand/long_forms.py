@@ -21,17 +21,24 @@ SHORT_FORMS: Mapping[str, str] = {
 
 GEOMETRIES = ("box", "cylinder", "sphere", "capsule", "mesh")
 
-CHOICES: Mapping[str, tuple[str, ...]] = {
+_CHOICES: Mapping[str, tuple[str, ...]] = {
     "a visual": GEOMETRIES,
     "a collision": GEOMETRIES,
     "an inertial": ("mass", "density"),
 }
-"""By the title of an object, keys that exclude each other: setting one removes the others."""
+"""By the title of an object, keys that exclude each other."""
 
 
 def is_set(node: YamlNode | None) -> bool:
     """Whether a node exists and is not null."""
     return node is not None and not (isinstance(node, YamlScalar) and node.value is None)
+
+
+def excluded_keys(node: YamlMap, shape: Shape) -> tuple[str, ...]:
+    """Return the keys that what is set in an object excludes: the other shapes of a visual with a box."""
+    choices = _CHOICES.get(shape.title, ())
+    excluded = tuple(name for name in choices if not is_set(node.get(name)))
+    return excluded if len(excluded) < len(choices) else ()
 
 
 def lists_objects(shape: Shape) -> bool:

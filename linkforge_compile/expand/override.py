@@ -20,7 +20,7 @@ from linkforge_compile.diagnostics.codes.modules import (
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.long_forms import (
-    CHOICES,
+    excluded_keys,
     is_set,
     lists_objects,
     long_form,
@@ -28,6 +28,7 @@ from linkforge_compile.expand.long_forms import (
 )
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import Fault, Value
+from linkforge_compile.expressions.operators import AXES
 from linkforge_compile.schema.json_schema import WORDS
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
 from linkforge_compile.source import Change, TracedSpan
@@ -41,8 +42,6 @@ SECTIONS = (
 
 _GAZEBO_BLOCKS = ("a gazebo block", "a robot's gazebo block")
 _PROPERTIES = "properties"
-
-_AXES: Mapping[str, tuple[int, int, int]] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
 @dataclass(frozen=True)
@@ -108,10 +107,8 @@ class _Patcher:
         if missing and not any("$(" in name for name in base.entries):
             for change in missing:
                 self._report_missing(change, base, shape)
-        chosen = [name for name in CHOICES.get(shape.title, ()) if is_set(patch.get(name))]
-        for rival in CHOICES.get(shape.title, ()) if chosen else ():
-            if rival not in chosen:
-                entries.pop(rival, None)
+        for name in excluded_keys(patch, shape):
+            entries.pop(name, None)
         return YamlMap(entries, TracedSpan.overridden(base.span, tuple(changes)))
 
     def _patch_entry(self, entries: dict[str, YamlEntry], change: YamlEntry, shape: Shape) -> list[Change]:
@@ -238,8 +235,9 @@ def _comparable(value: Value, field: str, shape: Shape) -> Value:
     match value:
         case bool():
             return (str(value),)  # Python takes it for 0 or 1
-        case str() if field == "axis" and value.lstrip("-") in _AXES:
-            return tuple(-number if value.startswith("-") else number for number in _AXES[value.lstrip("-")])
+        case str() if field == "axis" and (letter := value.lstrip("-")) in AXES:
+            length = 1 if value == letter else -1
+            return tuple(length if name == letter else 0 for name in AXES)
         case Quantity() if shape.is_free_part or shape.is_text:
             return str(value)
         case Quantity() if value.dimension.si_unit == shape.unit:

@@ -34,16 +34,20 @@ if TYPE_CHECKING:
     import yaml
 
 
-XML_ENDINGS = (".xml.j2", ".urdf.j2", ".srdf.j2", ".mjcf.j2", ".sdf.j2")
-"""How the names of templates end that write XML."""
-
 _MADE_BY = "jinja2.txt"
 """The file in the folder of compiled templates that names the version of Jinja2 that compiled them."""
 
 
 def is_xml(template: str | None) -> bool:
     """Whether a template writes XML, by its name."""
-    return template is not None and template.endswith(XML_ENDINGS)
+    return template is not None and template.endswith(xml_endings())
+
+
+@cache
+def xml_endings() -> tuple[str, ...]:
+    """Return how the names of templates end that write XML: formats of XML are those with a `NAME/robot.xml.j2`."""
+    formats = sorted(path.parent.name for path in templates_folder().glob("*/robot.xml.j2"))
+    return (".xml.j2", *(f".{name}.j2" for name in formats))
 
 
 @pass_eval_context
@@ -79,7 +83,7 @@ def format_yaml(value: object) -> str:
     """Return a value as YAML on one line: text in quotes where it needs them, 1e-05 as 1.0e-05.
 
     Raises:
-        TemplateRuntimeError: for what is no text, number, truth, None, list, map, vector or pose.
+        TemplateRuntimeError: for what is no text, number, boolean, None, list, map, vector or pose.
 
     """
     import yaml

@@ -26,14 +26,21 @@ Templates: TypeAlias = "TemplateFolder | str | Path | None"
 
 NO_OPTIONS: Options = MappingProxyType({})
 
+NO_YES = ("no", "yes")
+"""The choices of an option that the command line has as a flag."""
+
 
 class Option(NamedTuple):
-    """A choice that a format leaves to its user; the command line has it as `--NAME`."""
+    """A choice that a format leaves to its user; the command line has it as `--NAME`, a flag for `NO_YES`."""
 
     name: str
     choices: tuple[str, ...]
     default: str
     help: str
+
+    @property
+    def is_flag(self) -> bool:
+        return self.choices == NO_YES
 
     def value(self, options: Options) -> str:
         """Return the value of this option.
@@ -103,7 +110,7 @@ class Format(ABC):
     """Whether a URDF is among its documents, so that what Gazebo makes of a URDF is checked."""
 
     has_relative_paths: bool = False
-    """Whether relative paths of meshes in its documents start at the folder of the document."""
+    """Whether relative paths of meshes in its documents start at the folder of the first document."""
 
     options: tuple[Option, ...] = ()
 
@@ -119,6 +126,14 @@ class Format(ABC):
     def limits(self, robot: Robot, options: Options) -> Iterable[Diagnostic]:
         """Return what the format, or its common readers, cannot hold of a robot."""
         return ()
+
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        """Whether the relative paths of a robot's meshes are in its documents."""
+        return self.has_relative_paths
+
+    def folder_of_documents(self, target: Path) -> Path:
+        """Return the folder where relative paths start; `target` is its file, or the folder of its files."""
+        return (target / self.files[0] if self.files else target).parent
 
     def missing(self, robot: Robot) -> Diagnostic | None:
         """Return why the format has nothing to write for a robot; None if it has something."""

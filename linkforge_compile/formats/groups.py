@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.srdf import VirtualJointType
+from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.srdf import Chain, PlanningGroup
-
-SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
-"""The types of joints with one position, for which MoveIt and ros2_control have limits and controllers."""
 
 
 def actuated_joints(robot: Robot) -> tuple[Joint, ...]:
@@ -71,6 +69,27 @@ def _all_joints_by_group(robot: Robot) -> dict[str, tuple[Joint, ...]]:
         joints = (joint for joint in robot.joints if joint.name in members)
         by_group[name] = tuple(sorted(joints, key=lambda joint: places.get(joint.name, len(places))))
     return by_group
+
+
+def faulty_groups(robot: Robot) -> frozenset[str]:
+    """Return the planning groups that name a part which the robot does not have; checks have reported the name."""
+    groups = {group.name: group for group in robot.semantic.groups} if robot.has_semantic else {}
+    links = frozenset(link.name for link in robot.links)
+
+    def is_faulty(group: PlanningGroup) -> bool:
+        ends = (link for chain in group.chains for link in (chain.base_link, chain.tip_link))
+        return not (
+            links.issuperset((*group.links, *ends))
+            and all(map(robot.has_joint, group.joints))
+            and groups.keys() >= set(group.subgroups)
+        )
+
+    faulty = {name for name, group in groups.items() if is_faulty(group)}
+    found = 0
+    while faulty and found < len(faulty):
+        found = len(faulty)
+        faulty.update(name for name, group in groups.items() if not faulty.isdisjoint(group.subgroups))
+    return frozenset(faulty)
 
 
 def _names(

@@ -70,7 +70,7 @@ def _in_value(value: object, where: SourceRef | None, *path: str) -> Iterator[Di
     elif isinstance(value, WithExtras):
         return
     elif isinstance(value, LinkPhysics):
-        # No element of its own, and its constructor takes its truths as they come.
+        # No element of its own, and its constructor accepts its booleans as they are.
         for name in ("self_collide", "gravity"):
             yield from _in_value(getattr(value, name), value.source or where, name)
     elif isinstance(value, Mapping):

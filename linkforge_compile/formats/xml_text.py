@@ -80,7 +80,7 @@ _item: Callable[[object], float | bool] = methodcaller("item")
 
 
 def is_of_numpy(value: object) -> TypeGuard[float]:
-    """Whether it is a number or a truth of NumPy, alone or as an array without dimensions."""
+    """Whether it is a number or a boolean of NumPy, alone or as an array without dimensions."""
     return getattr(value, "ndim", None) == 0
 
 

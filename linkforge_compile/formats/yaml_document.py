@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
+from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.format import Document, Rendering, Templates
+from linkforge_compile.formats.format import Document, Format, Rendering, Templates
 from linkforge_compile.formats.source_map import Origins, Segment, SourceMap, recording, split_origins
 
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
 
-def render_yaml(
-    template: str, make_views: Callable[[], Mapping[str, object]], rendering: Rendering, name: str = ""
-) -> Document:
-    """Return the document that a template makes of views, which are made here so that they note origins.
 
-    The template writes values by the filter `to_yaml`, and at the end of a line what `place` or `origin_of` return.
+def render_yaml(format_: Format, template: str, robot: Robot, rendering: Rendering, name: str = "") -> Document:
+    """Return the document that a template makes of a format's view, which is made here so that it notes origins.
+
+    `template` is a path below the folder of the format, `name` that of the document. The template writes values by the
+    filter `to_yaml`, and at the end of a line what `place` or `origin_of` return.
 
     Raises:
         TemplateError: for what is wrong with one of the user's templates.
@@ -23,7 +26,8 @@ def render_yaml(
     """
     head = [f"# {line.strip()}".rstrip() for line in (rendering.banner or "").splitlines()]
     with recording() if rendering.has_map else nullcontext() as origins:
-        lines = [*head, *_text(template, make_views(), rendering.templates).splitlines()]
+        views = {"robot": robot, format_.name: format_.view(robot, rendering.options)}
+        lines = [*head, *_text(f"{format_.name}/{template}", views, rendering.templates).splitlines()]
     if origins is None:
         return Document("".join(f"{line}\n" for line in lines), name)
     pairs = list(_without_origins(lines, origins))

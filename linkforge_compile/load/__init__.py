@@ -5,7 +5,6 @@ What each module knows; it imports only those above it:
     spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
     loader            the files of one compile, each read once -> SpecFile
     locations         what a path in a spec names -> a file; a path relative to one file -> relative to another
-    xacro_answers     the questions of the xacro process -> where a package is, whether a file may be read
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
 """
 

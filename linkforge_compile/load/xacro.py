@@ -23,7 +23,6 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
-from linkforge_compile.load.xacro_answers import XacroAnswers
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.roots import exists
 from linkforge_compile.source import SourceFile, Span
@@ -31,7 +30,7 @@ from linkforge_compile.source import SourceFile, Span
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
     from linkforge_compile.importers.package_paths import PackagePaths
-    from linkforge_compile.importers.xacro import Expanded, Failed, Place
+    from linkforge_compile.importers.xacro import Expanded, Failed, Place, XacroAnswers
     from linkforge_compile.source.xml_tree import XmlElement
 
 FORBIDDEN = "LINKFORGE_NO_XACRO"
@@ -106,7 +105,7 @@ def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> P
 
 def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion | None:
     """Expand a xacro file with any content; None after a reported error."""
-    from linkforge_compile.importers.xacro import Failed, moved_back, run_xacro
+    from linkforge_compile.importers.xacro import Failed, XacroAnswers, moved_back, run_xacro
 
     main = loader.open_xml(use.path, sink, use.used)
     if main is None or use.arguments is None:

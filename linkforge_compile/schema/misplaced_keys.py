@@ -311,9 +311,12 @@ def _belongs(entry: YamlEntry, around: Shape, name: str, section: Shape) -> bool
         return section.has_names
     if not isinstance(entry.value, YamlMap):
         return name == "variables" and around.is_free and not isinstance(entry.value, YamlFault)
-    keys = _keys(entry)
+    keys, own = _keys(entry), _keys_of_entries(around)
+    # All keys are those of its own section, which a type makes sure: one of its values is wrong.
+    if "type" in keys and keys <= own:
+        return False
     known = keys & _keys_of_entries(section)
-    is_misspelt = len(keys - known) <= 1 < len(known) and not keys & _keys_of_entries(around)
+    is_misspelt = len(keys - known) <= 1 < len(known) and not keys & own
     return bool(known) and (known == keys or is_misspelt)
 
 

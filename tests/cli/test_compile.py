@@ -150,6 +150,32 @@ def test_meshes_next_to_the_spec_are_reported_if_the_urdf_goes_elsewhere(pendulu
     assert "LF7006" not in linkforge("compile", "rod.robot.yaml", "-o", "build/", cwd=pendulum).stderr
 
 
+def test_relative_meshes_are_reported_where_a_format_has_them_at_its_own_folder(pendulum: Path):
+    """LF7006: MoveIt's URDF is in `config`; MJCF and SDF may have the full paths of all files."""
+    (pendulum / "package.xml").write_text("<package><name>rods</name></package>")
+    for name in ("rod.stl", "hand.stl"):
+        (pendulum / name).write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+    inertial = "inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}"
+    spec = f"linkforge: 1\nname: rod\nlinks:\n  rod: {{visual: {{mesh: rod.stl}}, {inertial}}}\n"
+    hand = f"  hand: {{visual: {{mesh: package://rods/hand.stl}}, {inertial}}}\n"
+    joints = "joints: {turn: {type: continuous, parent: rod, child: hand, axis: z}}\n"
+    (pendulum / "rod.robot.yaml").write_text(f"{spec}{hand}{joints}semantic: {{groups: {{arm: {{joints: [turn]}}}}}}\n")
+
+    def reported(*words: str) -> list[str]:
+        lines = linkforge("compile", "rod.robot.yaml", *words, cwd=pendulum).stderr.splitlines()
+        return [line.partition("found from ")[2] for line in lines if line.endswith("[LF7006]")]
+
+    of_moveit = "'rod_moveit_config/config', the URDF's folder; write 'package://NAME/PATH' [LF7006]"
+    assert reported("-o", ".", "--format", "moveit") == [of_moveit]
+    assert reported("-o", ".", "--format", "urdf", "--format", "moveit") == [of_moveit]
+    of_urdf = "'build', the URDF's folder; write 'package://NAME/PATH', or the URDF into '.' [LF7006]"
+    assert reported("-o", "build/") == reported("-o", "build/", "--format", "urdf", "--format", "sdf") == [of_urdf]
+    assert reported("-o", "build/rod.mjcf") == []
+    assert f'meshdir="{pendulum}"' in (pendulum / "build" / "rod.mjcf").read_text()
+    assert reported("-o", "build/rod.sdf") == [of_urdf.replace("URDF", "SDF")]
+    assert reported("-o", "build/rod.sdf", "--meshes", "file") == []
+
+
 @pytest.mark.parametrize(
     ("installed", "misplaced"),
     [

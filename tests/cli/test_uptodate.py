@@ -115,7 +115,7 @@ def test_contradictory_outputs_are_reported(
 
 
 def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
-    check_hook, uptodate_hook = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    check_hook, uptodate_hook, _ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
     assert (check_hook["id"], uptodate_hook["id"]) == ("linkforge-check", "linkforge-uptodate")
     program, *words = check_hook["entry"].split()
     assert program == "linkforge"
@@ -128,7 +128,7 @@ def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
 
 
 def test_the_check_hook_finds_what_a_changed_module_breaks(arm: Path, capfd: pytest.CaptureFixture[str]):
-    hook, _ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    hook, *_ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
     words = hook["entry"].split()[1:]
     (arm / "parts").mkdir()
     module = arm / "parts" / "hand.yaml"

@@ -1,11 +1,6 @@
 """`linkforge collisions` as a command: its output, options and errors."""
 
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -81,8 +76,20 @@ def test_a_missing_mesh_is_an_error_at_its_place(tmp_path: Path):
     assert (done.returncode, done.stdout) == (1, "")
     assert (
         "robot.robot.yaml:4:28: error: the mesh 'package://hand_description/hand.stl' of a collision is not found, so "
-        "its link cannot be sampled; name the folder of its package with --package NAME=PATH [LF7701]" in done.stderr
+        "its link cannot be sampled; name the folder of its package with --package hand_description=PATH [LF7701]"
+        in done.stderr
     )
+
+
+def test_missing_meshes_of_a_package_are_one_error(tmp_path: Path):
+    meshes = ("arm/base.stl", "arm/upper.stl", "tool/tool.stl", "arm/hand.stl")
+    collisions = "".join(f"      - {{mesh: package://{mesh}}}\n" for mesh in meshes)
+    (tmp_path / "robot.robot.yaml").write_text(f"{HEAD}links:\n  arm:\n    collision:\n{collisions}", "utf-8")
+    done = linkforge("collisions", "robot.robot.yaml", cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.count("LF7701") == 2
+    assert "with --package arm=PATH; the same for 'package://arm/upper.stl' and 'package://arm/hand.stl'" in done.stderr
+    assert "with --package tool=PATH [LF7701]" in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -188,28 +195,3 @@ def test_missing_libraries_are_named_with_the_way_to_install_them(arm: Path, mon
     done = linkforge("collisions", arm.name, cwd=arm.parent)
     assert done.returncode == 2
     assert "there is no Python package coal; run: pip install 'linkforge-compile[collisions]'" in done.stderr
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_ends_all_processes(arm: Path):
-    words = [sys.executable, "-m", "linkforge_compile", "collisions", arm.name, "--samples", "9000000", "--jobs", "2"]
-    with subprocess.Popen(words, cwd=arm.parent, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
-        assert process.stderr
-        assert "of 9,000,000 samples" in process.stderr.readline()
-        time.sleep(1)
-        os.killpg(process.pid, signal.SIGINT)
-        assert process.wait(timeout=60) == 130
-        assert "Traceback" not in process.stderr.read()
-    end = time.monotonic() + 20
-    while is_running(process.pid) and time.monotonic() < end:
-        time.sleep(0.1)
-    assert not is_running(process.pid)
-
-
-def is_running(group: int) -> bool:
-    """Whether a process of a group runs."""
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True

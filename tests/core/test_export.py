@@ -66,7 +66,7 @@ def test_arrays_of_numpy_without_dimensions_are_written_as_what_they_hold():
 
 
 @pytest.mark.parametrize("true", [np.True_, np.asarray(True)])
-def test_a_truth_of_numpy_is_written_as_a_truth(true):
+def test_a_boolean_of_numpy_is_written_as_a_boolean(true):
     sensor = Sensor("eye", "camera", "base", always_on=true, camera_info=CameraInfo())
     urdf = Robot("arm", links=[Link("base")], sensors=[sensor]).export_urdf(validate=False)
     assert "<always_on>true</always_on>" in urdf

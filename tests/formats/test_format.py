@@ -10,8 +10,9 @@ from linkforge_compile import formats
 from linkforge_compile.cli import INTERRUPTED
 from linkforge_compile.cli.commands import watch
 from linkforge_compile.cli.main import main
-from linkforge_compile.formats.environment import XML_ENDINGS
+from linkforge_compile.formats.environment import xml_endings
 from linkforge_compile.formats.format import TemplateFormat
+from tests.conftest import ROOT
 from tests.formats.example_formats import Folder, Joints, Limits
 
 SPEC = """\
@@ -264,4 +265,6 @@ def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.Mo
 
 def test_templates_of_documents_that_are_xml_are_those_of_formats_of_xml():
     own = [one for one in formats.FORMATS if isinstance(one, TemplateFormat)]
-    assert set(XML_ENDINGS) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
+    assert set(xml_endings()) == {".xml.j2", *(f"{one.suffix}.j2" for one in own)}
+    page = (ROOT / "docs/templates.md").read_text("utf-8")
+    assert all(f"`NAME{ending}`" in page for ending in xml_endings())

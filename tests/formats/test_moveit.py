@@ -189,14 +189,39 @@ def test_positions_are_of_the_hardware_then_of_a_state_then_the_nearest_to_0():
     }
 
 
-def test_a_group_that_nothing_moves_is_reported():
-    text = f"{ROBOT}semantic: {{groups: {{wheels: {{joints: [left, right]}}}}}}\n"
-    assert reported(text) == []
-    forward = "controllers: {w: {type: forward_command_controller/ForwardCommandController, group: wheels}}\n"
-    assert reported(text + forward) == [
-        "LF7609 MoveIt executes no motion of group 'wheels': no controller of trajectories has its joints"
+@pytest.mark.parametrize(
+    ("replaced", "controllers", "reason"),
+    [
+        (
+            "",
+            "{w: {type: forward_command_controller/ForwardCommandController, group: wheels}}",
+            "no controller of trajectories has 'left' and 'right'",
+        ),
+        (
+            "left: &wheel {command_interfaces: [velocity], ",
+            "{}",
+            "none of its joints has a command interface in `ros2_control`",
+        ),
+        ("ros2_control", "{}", "the robot has no `ros2_control`; add it"),
+    ],
+)
+def test_a_group_that_nothing_moves_is_reported_with_the_reason(replaced: str, controllers: str, reason: str):
+    text = ROBOT
+    if replaced == "ros2_control":
+        text = text[: text.index("ros2_control")]
+    elif replaced:
+        text = text.replace(replaced, "left: &wheel {")
+    text += f"semantic: {{groups: {{wheels: {{joints: [left, right]}}}}}}\ncontrollers: {controllers}\n"
+    assert reported(text) == [f"LF7609 MoveIt executes no motion of group 'wheels': {reason}"]
+    manager = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
+    assert written(text, "moveit_controllers.yaml") == {"moveit_controller_manager": manager}
+
+
+def test_joints_without_a_command_interface_are_named():
+    text = ROBOT.replace("elbow: {command_interfaces: [position], ", "elbow: {")
+    assert reported(text + ARM_GROUP) == [
+        "LF7609 MoveIt executes no motion of group 'arm': 'elbow' has no command interface in `ros2_control`"
     ]
-    assert written(text + forward, "moveit_controllers.yaml")[MANAGER] == {"controller_names": []}
 
 
 def test_a_robot_without_groups_has_no_configuration():

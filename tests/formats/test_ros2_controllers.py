@@ -79,7 +79,8 @@ ros2_control:
       right: *wheel
     sensors: {{imu: {{state_interfaces: [orientation.x]}}, wrench: {{state_interfaces: [force.x]}}}}
 """
-ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}}}\n"
+ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 
 
 def robot_of(text: str):
@@ -234,7 +235,7 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
         (
             "ft: {type: force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster, frame: upper}, o: {type: a/B}",
             "LF7604 controller 'ft' of type force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster does not "
-            "start without `sensor`",
+            "start without `sensor` or `interface_names` in `parameters`",
         ),
         (
             "g: {type: position_controllers/JointGroupPositionController, joints: [elbow], "
@@ -242,10 +243,183 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
             "LF7605 a position_controllers/JointGroupPositionController has no 'state_interfaces'; that of 'g' is left "
             "out",
         ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, group: fixed}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `joints`; no joint of group 'fixed' "
+            "has a command interface in `ros2_control`",
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow, left]}, o: {type: a/B}",
+            f"LF7604 controller 't' of type {TRAJECTORY} does not start without `command_interfaces`; its joints have "
+            "none in common",
+        ),
     ],
 )
 def test_what_a_class_needs_or_lacks_is_reported(controllers: str, message: str):
     assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}}}\n") == [message]
+
+
+MANAGER_AND = "controller_manager: {{parameters: {{{}}}}}, o: {{type: a/B}}"
+TRAJECTORY_WITH = (
+    "t: {{type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+    "parameters: {{{}}}}}, o: {{type: a/B}}"
+)
+OF_TRAJECTORIES = f"a {TRAJECTORY}"
+
+
+@pytest.mark.parametrize(
+    ("controllers", "parameters", "message"),
+    [
+        (
+            MANAGER_AND,
+            "update_rate: 500 Hz",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found '500 Hz'",
+        ),
+        (
+            MANAGER_AND,
+            "update_rate: 500.0",
+            "LF7612 'update_rate' of the controller manager accepts a whole number without a unit, found 500.0",
+        ),
+        (
+            MANAGER_AND,
+            "update_rates: 500",
+            "LF7611 the controller manager has no parameter 'update_rates'; did you mean 'update_rate'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_time: fast}",
+            f"LF7612 'constraints.goal_time' of {OF_TRAJECTORIES} accepts a number, found 'fast'",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {stopped_velocity_tolerance: true}",
+            f"LF7612 'constraints.stopped_velocity_tolerance' of {OF_TRAJECTORIES} accepts a number, found true",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: 0.5",
+            f"LF7612 'constraints' of {OF_TRAJECTORIES} accepts a map of parameters, found 0.5",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {goal_tme: 1}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'goal_tme' in 'constraints'; did you mean 'goal_time'?",
+        ),
+        (
+            TRAJECTORY_WITH,
+            "constraints: {shouldr: {goal: 1}}",
+            f"LF7611 {OF_TRAJECTORIES} has no parameter 'shouldr' in 'constraints'; did you mean 'shoulder'?",
+        ),
+    ],
+)
+def test_parameters_that_a_class_does_not_declare_are_reported(controllers: str, parameters: str, message: str):
+    assert reported(f"{ROBOT}controllers: {{{controllers.format(parameters)}}}\n") == [message]
+
+
+def test_declared_parameters_have_the_types_that_their_class_declares():
+    text = f"""{ROBOT}
+controllers:
+  controller_manager:
+    parameters:
+      update_rate: 500
+      diagnostics: {{threshold: {{controllers: {{periodicity: {{mean_error: {{warn: 5}}}}}}}}}}
+      arm: {{fallback_controllers: [o]}}
+      loaded_later: {{type: a/B, params_file: later.yaml}}
+  arm:
+    type: joint_trajectory_controller/JointTrajectoryController
+    joints: [shoulder]
+    parameters:
+      update_rate: 50
+      constraints.goal_time: 1
+      constraints: {{shoulder: {{goal: 10 mm, trajectory: 1}}}}
+      gains: {{shoulder: {{p: 100, antiwindup_strategy: none, angle_wraparound: true}}}}
+  o: {{type: a/B, parameters: {{any: 1}}}}
+"""
+    assert reported(text) == []
+    written = controller("arm", text)
+    assert written["update_rate"] == 50
+    assert type(written["update_rate"]) is int
+    assert type(written["constraints.goal_time"]) is float
+    assert written["constraints"] == {"shoulder": {"goal": 0.01, "trajectory": 1.0}}
+    assert type(written["gains"]["shoulder"]["p"]) is float
+    manager = controller("controller_manager", text)
+    assert type(manager["diagnostics"]["threshold"]["controllers"]["periodicity"]["mean_error"]["warn"]) is float
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        (
+            "joints: [shoulder], parameters: {joints: [other]}",
+            "LF7621 controller 'c' has 'joints' in `parameters`, and `joints` for the same; remove one of them",
+        ),
+        (
+            "group: arm, parameters: {joints: [shoulder]}",
+            "LF7621 controller 'c' has 'joints' in `parameters`, and `group` for the same; remove one of them",
+        ),
+        (
+            "sensor: imu, parameters: {sensor_name: wrench}",
+            "LF7621 controller 'c' has 'sensor_name' in `parameters`, and `sensor` for the same; remove one of them",
+        ),
+        ("parameters: {joints: [other], list: [1, 2.5], texts: ['1', a], flags: [true, false]}", ""),
+    ],
+)
+def test_what_a_field_states_is_no_parameter_as_well(fields: str, message: str):
+    text = f"{ROBOT}{ARM_GROUP}controllers: {{c: {{type: a/B, {fields}}}}}\n"
+    assert reported(text) == [message] * bool(message)
+
+
+@pytest.mark.parametrize(
+    ("controller", "message"),
+    [
+        (
+            "{type: forward_command_controller/ForwardCommandController, joints: [shoulder], "
+            "command_interfaces: [position, velocity]}",
+            "LF7622 a forward_command_controller/ForwardCommandController accepts one name in 'command_interfaces'; "
+            "'velocity' of 'c' is left out",
+        ),
+        (
+            "{type: parallel_gripper_action_controller/GripperActionController, group: arm}",
+            "LF7622 a parallel_gripper_action_controller/GripperActionController accepts one name in 'joints'; "
+            "'elbow' of 'c' is left out",
+        ),
+    ],
+)
+def test_items_that_are_not_written_are_reported(controller: str, message: str):
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{c: {controller}, o: {{type: a/B}}}}\n") == [message]
+
+
+@pytest.mark.parametrize("items", ["[1, a]", "[true, 1]", "[[1], [2]]", "[{a: 1}]", "[null]"])
+@pytest.mark.parametrize("name", ["c", "controller_manager"])
+def test_a_list_that_ros_refuses_is_an_error(items: str, name: str):
+    type_ = "type: a/B, " if name == "c" else ""
+    own = f"{{{type_}parameters: {{qos_overrides: {{list: {items}}}}}}}"
+    text = f"{ROBOT}controllers: {{o: {{type: a/B}}, {name}: {own}}}\n"
+    assert reported(text) == [
+        f"LF7623 ROS 2 reads no parameters from a file with this list, 'qos_overrides.list' of '{name}': items are all "
+        "numbers, all texts, or all true or false"
+    ]
+
+
+@pytest.mark.parametrize(("name", "is_valid"), [("arm_2", True), ("arm-2", False), ("2_arms", False), ("a/b", False)])
+def test_the_name_of_a_controller_is_that_of_a_node(name: str, is_valid: bool):
+    found = reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}}}\n")
+    assert [one[:6] for one in found] == ["LF7624"] * (not is_valid)
+
+
+def test_a_force_torque_sensor_may_have_the_names_of_its_interfaces_instead():
+    type_ = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
+    names = "{interface_names: {force: {x: wrench/force.x}}}"
+    text = f"{ROBOT}controllers: {{ft: {{type: {type_}, frame: upper, parameters: {names}}}, o: {{type: a/B}}}}\n"
+    assert reported(text) == []
+
+
+def test_a_broadcaster_commands_no_joint():
+    states = "{type: joint_state_broadcaster/JointStateBroadcaster, joints: [shoulder, elbow, left, right]}"
+    arm = "{type: position_controllers/JointGroupPositionController, joints: [shoulder, elbow]}"
+    assert reported(f"{ROBOT}controllers: {{states: {states}, arm: {arm}}}\n") == [
+        "LF7607 no controller commands joint 'left'; the same for 'right'"
+    ]
 
 
 def test_a_joint_without_command_interface_is_reported():
@@ -255,6 +429,56 @@ def test_a_joint_without_command_interface_is_reported():
     assert reported(text) == [
         "LF7606 controller 't' does not start: joint 'elbow' has no command interface in `ros2_control`"
     ]
+
+
+@pytest.mark.parametrize(
+    ("controllers", "messages"),
+    [
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [shoulder, elbow], "
+            "command_interfaces: [velocity], state_interfaces: [position, effrt]}",
+            [
+                "LF7606 controller 't' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`",
+                "LF7606 controller 't' does not start: joint 'shoulder' has no state interface 'effrt' in "
+                "`ros2_control`; did you mean 'effort'?; the same for 'elbow'",
+            ],
+        ),
+        (
+            "g: {type: effort_controllers/GripperActionController, joints: [elbow]}",
+            ["LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'effort' in `ros2_control`"],
+        ),
+        (
+            "g: {type: velocity_controllers/JointGroupVelocityController, group: arm}",
+            [
+                "LF7606 controller 'g' does not start: joint 'elbow' has no command interface 'velocity' in "
+                "`ros2_control`"
+            ],
+        ),
+        (
+            "t: {type: joint_trajectory_controller/JointTrajectoryController, joints: [elbow], "
+            "command_interfaces: [effort], parameters: {command_joints: [pid/elbow], gains: {elbow: {p: 1}}}}",
+            [],
+        ),
+    ],
+)
+def test_interfaces_that_joints_do_not_have_are_reported(controllers: str, messages: list[str]):
+    assert reported(f"{ROBOT}{ARM_GROUP}controllers: {{{controllers}, o: {{type: a/B}}}}\n") == messages
+
+
+@pytest.mark.parametrize(
+    ("group", "controllers", "code"),
+    [
+        ("base_link: base, tip_link: lower", "group: amr", "LF4104"),
+        ("base_link: base, tip_link: lower", "joints: [elbo]", "LF4103"),
+        ("base_link: base, tip_link: lowr", "group: arm", "LF4102"),
+    ],
+)
+def test_what_follows_from_a_wrong_name_is_not_reported(group: str, controllers: str, code: str):
+    trajectory = f"{{type: joint_trajectory_controller/JointTrajectoryController, {controllers}}}"
+    text = f"{ROBOT}semantic: {{groups: {{arm: {{chain: {{{group}}}}}}}}}\ncontrollers: {{t: {trajectory}}}\n"
+    compilation = compile_text(f"linkforge: 1\nname: robot\n{text}", formats=("moveit",))
+    assert {one.code.id for one in compilation.diagnostics} - {"LF7601"} == {code}
 
 
 def test_a_robot_without_hardware_has_no_controllers():
@@ -275,6 +499,7 @@ def test_names_of_joints_groups_and_frames_are_checked():
 
 def test_each_line_leads_to_its_place_in_the_spec():
     text = f"linkforge: 1\nname: robot\n{ROBOT}controllers:\n  own:\n    type: a/B\n    parameters: {{pid: {{p: 4}}}}\n"
+    text += "  controller_manager: {parameters: {update_rate: 500}}\n"
     document = ROS2_CONTROLLERS.render(compile_text(text).result(), Rendering(has_map=True))[0]
     assert document.map is not None
     shown = {}
@@ -284,6 +509,7 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["own:"] == "own"
     assert shown["type: a/B"] == "a/B"
     assert shown["p: 4"] == "4"
+    assert shown["update_rate: 500"] == "500"
 
 
 def test_names_in_parameters_are_reported_under_a_prefix(tmp_path: Path):

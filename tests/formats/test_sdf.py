@@ -162,15 +162,16 @@ links:
 
 
 def test_meshes_are_files_where_that_is_requested(tmp_path: Path):
-    package = tmp_path / "arm"
-    package.mkdir()
+    package = tmp_path / "of José" / "arm"
+    package.mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>arm</name></package>")
     (package / "base.stl").write_bytes(b"")
     spec = package / "arm.robot.yaml"
     spec.write_text("linkforge: 1\nname: arm\nlinks: {base: {visual: {mesh: {file: package://arm/base.stl}}}}\n")
     robot = compile_file(spec).result()
     text = SDF.render(robot, Rendering({"meshes": "file"}))[0].text
-    assert f"<uri>{(package / 'base.stl').as_uri()}</uri>" in text
+    # Gazebo looks for a file of this very name, and decodes no `%20`.
+    assert f"<uri>{package.as_posix()}/base.stl</uri>" in text
 
 
 MIMIC = """
@@ -190,7 +191,34 @@ def test_a_mimic_joint_needs_version_1_11():
     assert reported(TWO + MIMIC, sdf="1.9") == [
         "LF7506 SDF 1.9 has no mimic joints, so 'follow' moves by itself; leave out `--sdf 1.9`, or choose 1.11"
     ]
-    assert reported(TWO + MIMIC) == []
+    assert reported(TWO + MIMIC) == [
+        "LF7514 DART, Gazebo's default engine, ignores mimic joints, so 'follow' moves by itself; "
+        "choose bullet-featherstone, or have gz_ros2_control move it"
+    ]
+
+
+@pytest.mark.parametrize("kind", ["fixed", "floating"])
+def test_a_mimic_joint_whose_leader_has_no_axis_moves_by_itself(kind: str):
+    """Gazebo refuses the model with an error about its axis."""
+    text = TWO + MIMIC.replace("turn: {type: continuous", f"turn: {{type: {kind}").replace(
+        "hand, axis: z}\n", "hand}\n"
+    )
+    root = document(text)
+    assert (root.get("version"), root.find(".//mimic")) == ("1.9", None)
+    assert reported(text) == [
+        "LF7501 SDF has no mimic with a joint of other than one axis; that of 'follow' is left out"
+    ]
+
+
+def test_limits_and_dynamics_of_a_floating_joint_are_reported():
+    text = TWO + (
+        "joints: {loose: {type: floating, parent: base, child: hand, dynamics: {damping: 1}, "
+        "limits: {effort: 1, velocity: 1}}}"
+    )
+    assert reported(text) == [
+        "LF7501 SDF has no limits of floating joints; that of 'loose' is left out",
+        "LF7501 SDF has no dynamics of floating joints; that of 'loose' is left out",
+    ]
 
 
 def test_a_joint_with_the_name_of_a_link_is_renamed(tmp_path: Path):
@@ -269,11 +297,15 @@ def test_a_flat_body_with_products_of_inertia_is_accepted(tmp_path: Path):
     assert found.links["base"]["inertia"][2] == pytest.approx(1.04884810136062e-05, rel=1e-6)
 
 
-def test_a_mesh_that_is_not_found_is_reported_where_files_are_requested():
-    text = "links: {base: {inertial: *unit, visual: {mesh: {file: package://gone/base.stl}}}}"
+def test_a_file_that_is_not_found_is_reported_where_files_are_requested():
+    text = (
+        "materials: {rust: {texture: package://gone/rust.png}}\n"
+        "links: {base: {inertial: *unit, visual: {mesh: {file: package://gone/base.stl}, material: rust}}}"
+    )
     assert reported(text) == []
     assert reported(text, meshes="file") == [
-        "LF7508 mesh 'package://gone/base.stl' is not found on this machine, so its URI stays in the SDF"
+        "LF7508 mesh 'package://gone/base.stl' is not found on this machine, so its URI stays in the SDF",
+        "LF7508 texture 'package://gone/rust.png' is not found on this machine, so its URI stays in the SDF",
     ]
     assert "<uri>model://gone/base.stl</uri>" in rendered(text, meshes="file")
 
@@ -291,3 +323,10 @@ def test_a_source_map_says_where_a_limit_was_written():
     place = result.map.at(next(number for number, line in enumerate(lines, 1) if "<upper>" in line))
     assert place is not None
     assert place.span.text == "2"
+
+
+def test_a_robot_without_links_is_no_model():
+    missing = SDF.missing(compiled("links: {world: }"))
+    assert missing is not None
+    assert missing.code.id == "LF7513"
+    assert SDF.missing(compiled("links: {base: {inertial: *unit}}")) is None

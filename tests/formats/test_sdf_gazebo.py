@@ -113,6 +113,38 @@ def test_contact_settings_are_those_of_each_collision(tmp_path: Path):
         assert (element.findtext("max_contacts"), element.findtext("laser_retro")) == ("4", "7")
 
 
+def test_a_surface_of_the_user_is_the_only_one():
+    text = """
+links:
+  base:
+    inertial: *unit
+    collision: {box: [1, 1, 1]}
+    gazebo:
+      mu1: 0.5
+      kp: 1000
+      properties: {collision: {surface: {friction: {ode: {mu: "0.9"}}}}}
+"""
+    (surface,) = document(text).iterfind(".//collision/surface")
+    assert [element.text for element in surface.iterfind(".//mu")] == ["0.9"]
+    assert reported(text) == [
+        "LF7501 SDF has no second <surface>, so no place for the setting 'mu1'; that of 'base' is left out",
+        "LF7501 SDF has no second <surface>, so no place for the setting 'kp'; that of 'base' is left out",
+    ]
+
+
+def test_a_raw_surface_is_the_only_one():
+    text = """
+links:
+  base:
+    inertial: *unit
+    collision: {box: [1, 1, 1]}
+    gazebo: {mu1: 0.5, extra: "<collision><surface><bounce/></surface></collision>"}
+"""
+    (surface,) = document(text).iterfind(".//collision/surface")
+    assert [child.tag for child in surface] == ["bounce"]
+    assert [message[:6] for message in reported(text)] == ["LF7501"]
+
+
 TWO_TAGS = """
 links: {base: {inertial: *unit}, hand: {inertial: *unit}}
 joints: {turn: {type: continuous, parent: base, child: hand, axis: z}}

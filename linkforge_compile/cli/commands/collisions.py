@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -11,14 +12,14 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import (
-    add_spec_and_values,
     add_spec_options,
     compile_spec,
-    require_one_spec,
     settings_of,
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
+from linkforge_compile.cli.specs import FoundSpecs, SpecReport, find_parts, find_specs_of
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.collisions.matrix import Matrix
@@ -39,14 +40,17 @@ examples:
   linkforge collisions arm.robot.yaml --samples 100000   of more samples, for pairs that seldom collide
   linkforge collisions arm.robot.yaml --write            put it into arm.robot.yaml, and keep its comments
   linkforge collisions arm.robot.yaml --check            in CI: exit code 1 if --write would change anything
+  linkforge collisions robots/ --check                   each spec of a folder that has pairs, modules first
   linkforge collisions cell.robot.yaml --all             sample the pairs inside modules as well
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge collisions [options] SPEC [NAME:=VALUE ...]"
+    parser.usage = "linkforge collisions [options] SPEC ... [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    add_spec_and_values(parser)
+    parser.add_argument(
+        "words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml, or folders; - for standard input"
+    )
     parser.add_argument(
         "--samples", metavar="N", type=_count, default=10_000, help="how many random positions (default: 10000)"
     )
@@ -64,23 +68,62 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
+    words, assignments = split_assignments(arguments.words)
+    found = find_specs_of(words, arguments)
+    if not words or "" in words:
+        raise UsageError("takes specs or folders, found none; is a variable of the shell empty?")
+    if len(words) > 1 and "-" in words:
+        raise UsageError("takes several specs as files, not on standard input")
     _require_libraries()
-    compilation = compile_spec(spec, assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
-        return FAULTY_SPEC
-    matrix = _find_matrix(compilation.robot, arguments)
-    if matrix is None:
-        return FAULTY_SPEC
-    print_status(_summary(matrix), arguments)
-    if arguments.write or arguments.check:
-        return _write(compilation.robot, matrix, spec, settings_of(assignments, arguments), arguments)
+    code = FAULTY_SPEC if report(found.faults, arguments) else OK
+    is_one = len(words) == 1 and not found.in_folders and not found.faults
+    specs = found.specs if is_one else _in_order(found, assignments, arguments)
+    results: dict[str, Matrix] = {}
+    for spec in specs:
+        label = "" if is_one else f"{spec}: "
+        compilation = compile_spec(spec, assignments, arguments)
+        robot = None if report(compilation.diagnostics, arguments) else compilation.robot
+        matrix = _find_matrix(robot, arguments) if robot else None
+        if robot is None or matrix is None:
+            code = FAULTY_SPEC
+            continue
+        print_status(f"{label}{_summary(matrix)}", arguments)
+        if arguments.write or arguments.check:
+            code = max(code, _write(robot, matrix, spec, settings_of(assignments, arguments), arguments))
+        else:
+            results[spec] = matrix
+    if results:
+        _print(results, arguments, is_one=is_one)
+    return code
+
+
+def _in_order(found: FoundSpecs, assignments: list[str], arguments: argparse.Namespace) -> list[str]:
+    """Return the specs, each after the modules that it uses; those found in folders only if they declare pairs."""
+    from linkforge_compile.collisions.matrix import own_pairs
+    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
+
+    compilations = {spec: compile_spec(spec, assignments, arguments) for spec in found.specs}
+    reports = {spec: SpecReport(one.diagnostics, one.files) for spec, one in compilations.items()}
+    left_out = find_parts(reports, (MISSING_NAME,)) | {
+        spec for spec in found.in_folders if (robot := compilations[spec].robot) and not own_pairs(robot)
+    }
+    if found.specs and left_out.issuperset(found.specs):
+        raise UsageError("no spec below has pairs in `disabled_collisions`; name the specs that need it")
+    # A spec is made from the files of its modules, and its own.
+    return sorted(set(found.specs) - left_out, key=lambda spec: (len(set(compilations[spec].files)), spec))
+
+
+def _print(results: Mapping[str, Matrix], arguments: argparse.Namespace, *, is_one: bool) -> None:
+    """Print the matrix of one spec, or those of several with their specs."""
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.collisions.section import section_text
 
-    write_to_stdout(_json_text(matrix, arguments) if arguments.json else section_text(matrix.disabled))
-    return OK
+    if arguments.json:
+        documents = [{**({} if is_one else {"spec": spec}), **_json(one, arguments)} for spec, one in results.items()]
+        write_to_stdout(json.dumps(documents[0] if is_one else documents, ensure_ascii=False, indent=2) + "\n")
+        return
+    headings = {spec: "" if is_one else f"# {on_one_line(spec)}\n" for spec in results}
+    write_to_stdout("".join(f"{headings[spec]}{section_text(one.disabled)}" for spec, one in results.items()))
 
 
 def _write(robot: Robot, matrix: Matrix, spec: str, settings: Settings, arguments: argparse.Namespace) -> int:
@@ -167,16 +210,13 @@ def _summary(matrix: Matrix) -> str:
     return f"{len(matrix.disabled)} pairs need no check ({parts or 'none'}), {len(matrix.checked)} do"
 
 
-def _json_text(matrix: Matrix, arguments: argparse.Namespace) -> str:
-    import json
-
-    document = {
+def _json(matrix: Matrix, arguments: argparse.Namespace) -> dict[str, object]:
+    return {
         "samples": arguments.samples,
         "seed": arguments.seed,
         "disabled": [{"link1": one, "link2": other, "reason": why} for (one, other), why in matrix.disabled.items()],
         "checked": [{"link1": one, "link2": other} for one, other in matrix.checked],
     }
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
 
 
 def _count(text: str) -> int:

@@ -40,6 +40,8 @@ examples:
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
   linkforge compile arm.robot.yaml -o build/ --format urdf --format mjcf     these of what `linkforge formats` lists
+  linkforge compile arm.robot.yaml --format moveit -o src/                   src/arm_moveit_config/config/
+  linkforge compile arm.robot.yaml --format moveit -o src/my_moveit_config   src/my_moveit_config/config/
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants

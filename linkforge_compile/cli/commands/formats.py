@@ -57,7 +57,8 @@ def _rows(one: Format) -> Iterator[str]:
     yield from _wrapped("keeps", one.keeps)
     yield from _wrapped("loses", one.loses)
     for option in one.options:
-        yield from _wrapped("option", f"--{option.name} {'|'.join(option.choices)}: {option.help}")
+        choices = "" if option.is_flag else f" {'|'.join(option.choices)}"
+        yield from _wrapped("option", f"--{option.name}{choices}: {option.help}")
 
 
 def _wrapped(title: str, text: str) -> Iterator[str]:

@@ -19,7 +19,7 @@ class Controller(Element):
 
     `joints` are those that it commands or reads, for a `group` without them the joints of the group. `left_wheels` and
     `right_wheels` are those of a differential drive. `sensor` is a sensor of ros2_control, whose values are in `frame`.
-    `parameters` are all others: numbers, truths, texts, and lists and maps of them. `type` is None for the
+    `parameters` are all others: numbers, booleans, texts, and lists and maps of them. `type` is None for the
     controller manager alone, whose name takes no prefix.
 
     Raises:

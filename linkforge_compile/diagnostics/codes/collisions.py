@@ -5,7 +5,11 @@ from linkforge_compile.diagnostics.diagnostic import Code, Severity
 _E = Severity.ERROR
 
 UNKNOWN_SHAPE = Code(
-    "LF7701", _E, "the mesh '{file}' of a collision {reason}, so its link cannot be sampled; {way_out}"
+    "LF7701",
+    _E,
+    "the mesh '{file}' of a collision {reason}, so its link cannot be sampled; {way_out}",
+    subject="file",
+    grouped_by=("reason", "way_out"),
 )
 UNREADABLE_SHAPE = Code(
     "LF7702", _E, "the mesh '{file}' of a collision cannot be read, so its link cannot be sampled: {reason}"

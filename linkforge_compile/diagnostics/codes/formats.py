@@ -25,7 +25,7 @@ MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
     _W,
     "mesh path '{path}' is relative to this file and cannot be found from '{folder}', the {document}'s "
-    "folder; write 'package://NAME/PATH', or the {document} into '{back}'",
+    "folder; write 'package://NAME/PATH'{elsewhere}",
 )
 UNDECLARED_PREFIX = Code(
     "LF7007",
@@ -190,8 +190,12 @@ FREE_IN_SDF = Code(
     "SDF has no planar joints, so '{joint}' is left out and link '{link}' moves freely",
     subject="joint",
 )
-MESH_STAYS_A_URI = Code(
-    "LF7508", _W, "mesh '{file}' is not found on this machine, so its URI stays in the SDF", subject="file"
+STAYS_A_URI = Code(
+    "LF7508",
+    _W,
+    "{what} '{file}' is not found on this machine, so its URI stays in the SDF",
+    subject="file",
+    grouped_by=("what",),
 )
 RENAMED_SHAPE_IN_SDF = Code(
     "LF7509",
@@ -205,6 +209,22 @@ NO_COLLISION_IN_SDF = Code(
     "LF7511",
     _W,
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
+)
+NOT_FOUND_NESTED = Code(
+    "LF7512",
+    _W,
+    "gz_ros2_control finds no joints in nested models, so it does not move '{joint}'; leave out `--nested`",
+    subject="joint",
+)
+NO_BODY_IN_SDF = Code(
+    "LF7513", _E, "Gazebo refuses a model without links, as '{robot}' is; give it one that is not `world`"
+)
+MIMIC_OF_ENGINE = Code(
+    "LF7514",
+    Severity.NOTE,
+    "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves by itself; choose bullet-featherstone, or "
+    "have gz_ros2_control move it",
+    subject="joint",
 )
 
 # LF76xx: control and planning
@@ -229,17 +249,44 @@ NOT_OF_CONTROLLER = Code(
 NOT_OF_HARDWARE = Code(
     "LF7606",
     _W,
-    "controller '{controller}' does not start: joint '{joint}' has no command interface in `ros2_control`",
+    "controller '{controller}' does not start: joint '{joint}' has no {what} in `ros2_control`",
     subject="joint",
-    grouped_by=("controller",),
+    grouped_by=("controller", "what"),
 )
 NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
 NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
 NOTHING_EXECUTES = Code(
     "LF7609",
     _W,
-    "MoveIt executes no motion of group '{group}': no controller of trajectories has its joints",
+    "MoveIt executes no motion of group '{group}': {reason}",
     subject="group",
+    grouped_by=("reason",),
+)
+UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
+WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
+STATED_TWICE = Code(
+    "LF7621",
+    _E,
+    "controller '{controller}' has '{parameter}' in `parameters`, and `{field}` for the same; remove one of them",
+)
+ONE_OF_SEVERAL = Code(
+    "LF7622",
+    _W,
+    "a {type} accepts one name in '{field}'; '{item}' of '{controller}' is left out",
+    subject="item",
+    grouped_by=("type", "field", "controller"),
+)
+LIST_OF_SEVERAL_TYPES = Code(
+    "LF7623",
+    _E,
+    "ROS 2 reads no parameters from a file with this list, '{parameter}' of '{controller}': items are all numbers, all "
+    "texts, or all true or false",
+)
+NO_NAME_OF_A_NODE = Code(
+    "LF7624",
+    _W,
+    "controller '{controller}' does not start: the name of a node has letters of ASCII, digits and '_' alone, and "
+    "begins with no digit",
 )
 
 # LF72xx: templates of users

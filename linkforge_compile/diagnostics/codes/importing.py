@@ -92,7 +92,7 @@ MESH_BESIDE_THE_URDF = Code(
     "LF8130",
     _W,
     "mesh path '{path}' is relative to the URDF and cannot be found from '{folder}', the spec's folder; "
-    "write 'package://NAME/PATH', or the spec into '{back}'",
+    "write 'package://NAME/PATH'{elsewhere}",
 )
 
 # LF813x: additional information, without a loss

@@ -26,6 +26,7 @@ LINK_AND_JOINT = Code(
     "LF4108", _W, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
 )
 SHARED_TOPIC = Code("LF4109", _W, "sensors '{first}' and '{second}' both publish on topic '{topic}'")
+UNKNOWN_HARDWARE_SENSOR = Code("LF4110", _W, "no sensor named '{name}' in `ros2_control`", _VALUE)
 MODULES_DISAGREE = Code(
     "LF4111",
     _E,

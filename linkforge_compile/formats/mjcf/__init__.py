@@ -42,6 +42,11 @@ class Mjcf(TemplateFormat):
 
         yield from mjcf_limits(robot, is_free=BASE.value(options) == "free")
 
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        from linkforge_compile.formats.mjcf.meshes import mesh_assets
+
+        return mesh_assets(robot).folder is None
+
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.mjcf.view import robot_view
 

@@ -10,7 +10,8 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
-from linkforge_compile.formats.mjcf.joints import SINGLE, is_locked, symmetric
+from linkforge_compile.formats.mjcf.joints import is_locked, symmetric
+from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:

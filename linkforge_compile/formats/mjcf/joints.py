@@ -6,19 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.geometry import IDENTITY, Vector3
-from linkforge_compile.core.models.joint import Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointLimits, JointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-SINGLE = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
-"""The types of joints that are one joint of MuJoCo, with the same name."""
-
-_AXES = {"x": Vector3(1.0, 0.0, 0.0), "y": Vector3(0.0, 1.0, 0.0), "z": Vector3(0.0, 0.0, 1.0)}
+_X, _Y, _Z = (AXES[name] for name in "xyz")
 
 
 def joint_elements(joint: Joint, joint_class: JointClass) -> tuple[Xml, ...]:
@@ -75,13 +73,13 @@ def _floating(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     if is_free_joint(joint):
         return (leaf_at("freejoint", joint.source, name=joint.name),)
     *slides, ball = part_names(joint)
-    axes = zip(slides, _AXES.values(), strict=True)
+    axes = zip(slides, (_X, _Y, _Z), strict=True)
     return (*(_part(joint, name, "slide", axis) for name, axis in axes), _part(joint, ball, "ball"))
 
 
 def _planar(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
     """Return two slides in the plane and a hinge about its normal."""
-    normal = joint.axis or _AXES["z"]
+    normal = joint.axis or _Z
     first, second = _axes_of_plane(normal)
     x, y, yaw = part_names(joint)
     return (
@@ -94,7 +92,7 @@ def _planar(joint: Joint, _: JointClass) -> tuple[Xml, ...]:
 def _axes_of_plane(normal: Vector3) -> tuple[Vector3, Vector3]:
     """Return two axes that make a right-handed frame with a normal; x and y for z."""
     x, y, z = normal
-    away = _AXES["x"] if abs(x) < 0.9 else _AXES["y"]
+    away = _X if abs(x) < 0.9 else _Y
     second = Vector3(y * away.z - z * away.y, z * away.x - x * away.z, x * away.y - y * away.x)
     first = Vector3(second.y * z - second.z * y, second.z * x - second.x * z, second.x * y - second.y * x)
     return first, second
@@ -152,11 +150,3 @@ def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
         coefficients = (limits.lower or 0.0, 0, 0, 0, 0)
         return (leaf_at("joint", limits.source, joint1=joint.name, polycoef=coefficients),)
     return ()
-
-
-def leader_of(joint: Joint, robot: Robot) -> Joint | None:
-    """Return the joint that a joint mimics; None where one of them is not one joint of MuJoCo, as for LF5502."""
-    if joint.mimic is None or joint.type not in SINGLE or not robot.has_joint(joint.mimic.joint):
-        return None
-    leader = robot.joints[joint.mimic.joint]
-    return leader if leader.type in SINGLE else None

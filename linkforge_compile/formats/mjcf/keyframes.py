@@ -12,7 +12,8 @@ from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import Drive, drives, number_of
-from linkforge_compile.formats.mjcf.joints import SINGLE, range_of
+from linkforge_compile.formats.mjcf.joints import range_of
+from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:

@@ -21,13 +21,13 @@ from linkforge_compile.diagnostics.codes.formats import (
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.limits import check_texts
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
-from linkforge_compile.formats.mjcf.joints import SINGLE
 from linkforge_compile.formats.mjcf.losses import lost_parts
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.names import check_names
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
+from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot

@@ -12,10 +12,10 @@ from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
-from linkforge_compile.formats.mjcf.joints import SINGLE, leader_of
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
 from linkforge_compile.formats.mjcf.sensors import sensor_losses
 from linkforge_compile.formats.parts import doubtful_parts_in
+from linkforge_compile.formats.single_axis import SINGLE, leader_of
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:

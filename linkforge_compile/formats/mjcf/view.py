@@ -10,10 +10,11 @@ from linkforge_compile.formats.mjcf.actuators import actuator_element, actuator_
 from linkforge_compile.formats.mjcf.bodies import body_views, world_elements
 from linkforge_compile.formats.mjcf.contacts import exclusion_elements
 from linkforge_compile.formats.mjcf.joint_class import JointClass
-from linkforge_compile.formats.mjcf.joints import SINGLE, equality_elements, joint_settings
+from linkforge_compile.formats.mjcf.joints import equality_elements, joint_settings
 from linkforge_compile.formats.mjcf.keyframes import key_elements
 from linkforge_compile.formats.mjcf.meshes import mesh_assets
 from linkforge_compile.formats.mjcf.sensors import sensor_elements
+from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:

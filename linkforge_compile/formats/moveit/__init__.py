@@ -29,11 +29,8 @@ _WHOLE_FILES: Mapping[str, Format] = {
 }
 """Files that are the documents of other formats."""
 
-_OWN_FILES = {
-    f"config/{name}": f"moveit/{name}.j2"
-    for name in ("kinematics.yaml", "moveit_controllers.yaml", "initial_positions.yaml", "pilz_cartesian_limits.yaml")
-}
-"""Files of which there is a template each."""
+_OWN_FILES = ("kinematics.yaml", "moveit_controllers.yaml", "initial_positions.yaml", "pilz_cartesian_limits.yaml")
+"""Files in `config` of which there is a template each."""
 
 
 class MoveIt(Format):
@@ -42,10 +39,14 @@ class MoveIt(Format):
     name = "moveit"
     suffix = "_moveit_config"
     share_folder = ""
-    files = (*_WHOLE_FILES, *_OWN_FILES)
+    files = (*_WHOLE_FILES, *(f"config/{name}" for name in _OWN_FILES))
     description = "the configuration of MoveIt, with the URDF and the SRDF"
     keeps = "the URDF, the SRDF, kinematics solvers, limits of joints, controllers and initial positions"
-    loses = "planning pipelines, sensors and launch files, for which MoveIt has defaults"
+    loses = (
+        "planning pipelines, for which MoveIt has defaults; launch files, the configuration of RViz and sensors, which "
+        "are the package's own"
+    )
+    has_relative_paths = True
     has_urdf = True
     options = Urdf.options
 
@@ -64,11 +65,8 @@ class MoveIt(Format):
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
         from linkforge_compile.formats.yaml_document import render_yaml
 
-        def views() -> dict[str, object]:
-            return {"robot": robot, self.name: self.view(robot, rendering.options)}
-
         whole = (one.render(robot, rendering)[0]._replace(name=name) for name, one in _WHOLE_FILES.items())
-        own = (render_yaml(template, views, rendering, name) for name, template in _OWN_FILES.items())
+        own = (render_yaml(self, f"{name}.j2", robot, rendering, f"config/{name}") for name in _OWN_FILES)
         return (*whole, *own)
 
     def view(self, robot: Robot, options: Options) -> View:

@@ -39,10 +39,7 @@ class Ros2Controllers(Format):
     def render(self, robot: Robot, rendering: Rendering) -> tuple[Document, ...]:
         from linkforge_compile.formats.yaml_document import render_yaml
 
-        def views() -> dict[str, object]:
-            return {"robot": robot, self.name: self.view(robot, rendering.options)}
-
-        return (render_yaml(f"{self.name}/controllers.yaml.j2", views, rendering),)
+        return (render_yaml(self, "controllers.yaml.j2", robot, rendering),)
 
     def view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.ros2_controllers.view import controllers_view

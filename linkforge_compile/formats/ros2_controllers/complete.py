@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER, Controller
-from linkforge_compile.formats.groups import actuated_joints, joints_by_group
-from linkforge_compile.formats.ros2_controllers.kinds import FORWARD, GRIPPER, STATES, TRAJECTORY
+from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
+from linkforge_compile.formats.ros2_controllers.kinds import FORWARD, GRIPPER, JOINT_FIELDS, STATES, TRAJECTORY
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -30,6 +30,15 @@ def complete_controllers(robot: Robot) -> tuple[Controller, ...]:
         joints = one.joints or tuple(name for name in members if name in hardware)
         completed.append(_with_interfaces(one.with_fields(joints=joints), hardware))
     return tuple(completed)
+
+
+def has_faulty_names(robot: Robot, controller: Controller) -> bool:
+    """Return whether a controller names a joint or a group that is missing or faulty, which checks have reported."""
+    names = (name for field in JOINT_FIELDS for name in getattr(controller, field))
+    if not all(map(robot.has_joint, names)):
+        return True
+    groups = {group.name for group in robot.semantic.groups} if robot.has_semantic else set()
+    return controller.group is not None and controller.group not in groups - faulty_groups(robot)
 
 
 def commanded_joints(robot: Robot) -> dict[str, Ros2ControlJoint]:

@@ -14,63 +14,96 @@ GRIPPER = "parallel_gripper_action_controller/GripperActionController"
 OLD_GRIPPER = "position_controllers/GripperActionController"
 EFFORT_GRIPPER = "effort_controllers/GripperActionController"
 FORWARD = "forward_command_controller/ForwardCommandController"
+POSITION_GROUP = "position_controllers/JointGroupPositionController"
+VELOCITY_GROUP = "velocity_controllers/JointGroupVelocityController"
+EFFORT_GROUP = "effort_controllers/JointGroupEffortController"
 STATES = "joint_state_broadcaster/JointStateBroadcaster"
 DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
+IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
+FORCE_TORQUE = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
 
-GRIPPERS = (GRIPPER, OLD_GRIPPER, EFFORT_GRIPPER)
+JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
+"""The fields of a controller with names of joints."""
 
-_ANY: Mapping[str, str] = {
-    "joints": "joints",
-    "left_wheels": "left_wheel_names",
-    "right_wheels": "right_wheel_names",
-    "sensor": "sensor_name",
-    "frame": "frame_id",
-    "command_interfaces": "command_interfaces",
-    "state_interfaces": "state_interfaces",
-}
+_ALL_FIELDS: Mapping[str, str] = MappingProxyType(
+    {
+        "joints": "joints",
+        "left_wheels": "left_wheel_names",
+        "right_wheels": "right_wheel_names",
+        "sensor": "sensor_name",
+        "frame": "frame_id",
+        "command_interfaces": "command_interfaces",
+        "state_interfaces": "state_interfaces",
+    }
+)
 
 
 class Kind(NamedTuple):
     """A class of controllers.
 
-    `parameters` are the names of its parameters by the fields of Controller; those in `single` have one name and no
-    list. It needs those in `required`, other parameters too. `whole` are its parameters that are whole numbers, None
-    where that is not known.
+    `parameters` are the names of its parameters by the fields of Controller; those of the fields in `single` have one
+    name and no list. It does not start without its parameters in `required`, or those that `instead` has for them. All
+    of its parameters are in `parameters.py`. `commands` and `states` are the interfaces of its joints that it claims
+    where its fields have none.
     """
 
-    parameters: Mapping[str, str] = MappingProxyType(_ANY)
+    parameters: Mapping[str, str]
     single: frozenset[str] = frozenset()
     required: tuple[str, ...] = ()
-    whole: frozenset[str] | None = frozenset()
+    instead: Mapping[str, str] = MappingProxyType({})
+    commands: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
 
-
-def _kind(*fields: str, single: tuple[str, ...] = (), required: tuple[str, ...] = (), **renamed: str) -> Kind:
-    names = {field: _ANY[field] for field in fields} | renamed
-    return Kind(names, frozenset(single), required or tuple(names[field] for field in fields))
-
-
-_GROUP, _SENSOR = _kind("joints"), _kind("sensor", "frame")
 
 KINDS: Mapping[str, Kind] = {
-    TRAJECTORY: _kind("joints", "command_interfaces", "state_interfaces"),
-    GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint", state_interfaces="state_interfaces"),
-    OLD_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
-    EFFORT_GRIPPER: _kind(single=("joints",), required=("joint",), joints="joint"),
-    FORWARD: _kind("joints", single=("command_interfaces",), command_interfaces="interface_name"),
-    "position_controllers/JointGroupPositionController": _GROUP,
-    "velocity_controllers/JointGroupVelocityController": _GROUP,
-    "effort_controllers/JointGroupEffortController": _GROUP,
+    TRAJECTORY: Kind(
+        {"joints": "joints", "command_interfaces": "command_interfaces", "state_interfaces": "state_interfaces"},
+        required=("joints", "command_interfaces", "state_interfaces"),
+    ),
+    GRIPPER: Kind(
+        {"joints": "joint", "state_interfaces": "state_interfaces"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("position",),
+        states=("position", "velocity"),
+    ),
+    OLD_GRIPPER: Kind(
+        {"joints": "joint"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("position",),
+        states=("position", "velocity"),
+    ),
+    EFFORT_GRIPPER: Kind(
+        {"joints": "joint"},
+        single=frozenset({"joints"}),
+        required=("joint",),
+        commands=("effort",),
+        states=("position", "velocity"),
+    ),
+    FORWARD: Kind(
+        {"joints": "joints", "command_interfaces": "interface_name"},
+        single=frozenset({"command_interfaces"}),
+        required=("joints", "interface_name"),
+    ),
+    POSITION_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("position",)),
+    VELOCITY_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("velocity",)),
+    EFFORT_GROUP: Kind({"joints": "joints"}, required=("joints",), commands=("effort",)),
     STATES: Kind({"joints": "joints", "state_interfaces": "interfaces"}),
-    DIFF_DRIVE: _kind(
-        "left_wheels",
-        "right_wheels",
+    DIFF_DRIVE: Kind(
+        {"left_wheels": "left_wheel_names", "right_wheels": "right_wheel_names"},
         required=("left_wheel_names", "right_wheel_names", "wheel_separation", "wheel_radius"),
-    )._replace(whole=frozenset({"velocity_rolling_window_size"})),
-    "imu_sensor_broadcaster/IMUSensorBroadcaster": _SENSOR,
-    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster": _SENSOR._replace(whole=None),
+        commands=("velocity",),
+    ),
+    IMU: Kind({"sensor": "sensor_name", "frame": "frame_id"}, required=("sensor_name", "frame_id")),
+    FORCE_TORQUE: Kind(
+        {"sensor": "sensor_name", "frame": "frame_id"},
+        required=("sensor_name", "frame_id"),
+        instead={"sensor_name": "interface_names"},
+    ),
 }
 
-ANY_KIND = Kind(whole=None)
+ANY_KIND = Kind(_ALL_FIELDS)
 """What any other class is given: all that a controller has, under the usual names."""
 
 

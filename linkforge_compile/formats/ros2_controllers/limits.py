@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
@@ -11,10 +11,20 @@ from linkforge_compile.diagnostics.codes.formats import (
     NO_CONTROLLER_FOR_JOINT,
     NO_HARDWARE,
     NOT_OF_CONTROLLER,
-    NOT_OF_HARDWARE,
+    UNKNOWN_PARAMETER,
+    WRONG_PARAMETER,
 )
-from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
-from linkforge_compile.formats.ros2_controllers.kinds import GRIPPERS, KINDS, TRAJECTORY, kind_of
+from linkforge_compile.formats.groups import faulty_groups
+from linkforge_compile.formats.ros2_controllers.complete import (
+    commanded_joints,
+    complete_controllers,
+    has_faulty_names,
+)
+from linkforge_compile.formats.ros2_controllers.interfaces import check_interfaces
+from linkforge_compile.formats.ros2_controllers.kinds import JOINT_FIELDS, KINDS, STATES, kind_of
+from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
+from linkforge_compile.formats.ros2_controllers.refused import check_refused
+from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
@@ -22,7 +32,6 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
 
 _FIELDS = ("joints", "left_wheels", "right_wheels", "sensor", "frame", "command_interfaces", "state_interfaces")
-_COMMANDED = ("joints", "left_wheels", "right_wheels")
 
 
 def missing_hardware(robot: Robot) -> Diagnostic | None:
@@ -35,16 +44,20 @@ def missing_hardware(robot: Robot) -> Diagnostic | None:
 def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     """A controller has what its class needs and nothing else; each commanded joint has a controller."""
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
-    for controller in controllers:
+    yield from check_refused(robot, controllers)
+    if manager := robot.controllers.get(MANAGER):
+        loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
+        yield from _check_types(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
+    sound = [one for one in controllers if not has_faulty_names(robot, one)]
+    for controller in sound:
         yield from _check_parameters(controller)
-        if controller.type in {TRAJECTORY, *GRIPPERS}:
-            for place, name in enumerate(controller.joints):
-                if name not in hardware and robot.has_joint(name):
-                    yield NOT_OF_HARDWARE.at(controller.source, "joints", place, controller=controller.name, joint=name)
+        yield from _check_types(controller, controller.type or "", _joints(controller))
+        yield from check_interfaces(robot, controller)
     has_states_alone = all(one.name == MANAGER for one in robot.controllers)
-    used = {name for one in controllers for field in _COMMANDED for name in getattr(one, field)}
-    is_known = all(one.type in KINDS for one in controllers)
-    for joint in hardware.values() if is_known or has_states_alone else ():
+    commanding = [one for one in controllers if one.type != STATES]
+    used = {name for one in commanding for field in JOINT_FIELDS for name in getattr(one, field)}
+    is_known = has_states_alone or all(one.type in KINDS for one in controllers)
+    for joint in hardware.values() if is_known and sound == list(controllers) and not faulty_groups(robot) else ():
         if joint.name not in used:
             yield NO_CONTROLLER_FOR_JOINT.at(joint.source, joint=joint.name)
 
@@ -52,12 +65,58 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
 def _check_parameters(controller: Controller) -> Iterator[Diagnostic]:
     kind, name = kind_of(controller.type), controller.name
     given = {kind.parameters[field] for field in _FIELDS if field in kind.parameters and getattr(controller, field)}
-    for parameter in kind.required:
-        if parameter not in given and parameter not in controller.parameters:
-            field = next((key for key, value in kind.parameters.items() if value == parameter), "")
-            way_out = f"`{field}`" if field else f"`{parameter}` in `parameters`"
-            yield CONTROLLER_LACKS.at(controller.source, controller=name, type=controller.type, parameter=way_out)
+    given |= controller.parameters.keys()
+    lacks = [one for one in kind.required if given.isdisjoint((one, kind.instead.get(one)))]
+    if kind.parameters.get("joints") in lacks:
+        # The interfaces follow from the joints.
+        lacks = [one for one in lacks if not one.endswith(("_interfaces", "interface_name"))]
+    for parameter in lacks:
+        field = next((key for key, value in kind.parameters.items() if value == parameter), "")
+        way_out = f"`{field}`{_why(controller, field)}" if field else f"`{parameter}` in `parameters`"
+        if parameter in kind.instead:
+            way_out += f" or `{kind.instead[parameter]}` in `parameters`"
+        yield CONTROLLER_LACKS.at(controller.source, controller=name, type=controller.type, parameter=way_out)
     if controller.type in KINDS:
         for field in _FIELDS:
             if field not in kind.parameters and getattr(controller, field):
                 yield NOT_OF_CONTROLLER.at(controller.source, field, controller=name, type=controller.type, field=field)
+
+
+def _why(controller: Controller, field: str) -> str:
+    """Return why a field does not follow from the robot, "" where it never does."""
+    if field == "joints" and controller.group:
+        return f"; no joint of group '{controller.group}' has a command interface in `ros2_control`"
+    if field.endswith("_interfaces") and len(controller.joints) > 1:
+        return "; its joints have none in common"
+    return ""
+
+
+def _check_types(controller: Controller, declared_by: str, named: Iterable[str]) -> Iterator[Diagnostic]:
+    """Report the parameters that a class does not declare, or declares with another type."""
+    owner = "the controller manager" if declared_by == MANAGER else f"a {declared_by}"
+    declared = PARAMETERS.get(declared_by)
+    misfits = find_misfits(controller.parameters, declared, named) if declared is not None else ()
+    for path, expected, value, near in misfits:
+        *outer, name = path
+        if expected is None:
+            inside = f" in '{'.'.join(outer)}'" if outer else ""
+            place = ("parameters", *outer, Key(name))
+            yield UNKNOWN_PARAMETER.at(controller.source, *place, name=name, owner=owner, inside=inside, near=near)
+        else:
+            name, found = ".".join(path), _shown(value)
+            place = ("parameters", *path)
+            yield WRONG_PARAMETER.at(controller.source, *place, name=name, owner=owner, expected=expected, found=found)
+
+
+def _joints(controller: Controller) -> tuple[str, ...]:
+    """Return the joints of a controller, also those that are a parameter."""
+    stated = controller.parameters.get("joints")
+    return (*controller.joints, *map(str, stated if isinstance(stated, list | tuple) else ()))
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, str):
+        return f"'{value}'"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return str(value) if isinstance(value, int | float) else "a map" if isinstance(value, Mapping) else "a list"

@@ -9,13 +9,14 @@ from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.ros2_controllers.complete import complete_controllers
 from linkforge_compile.formats.ros2_controllers.kinds import kind_of
+from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, type_of
 from linkforge_compile.formats.views import View
-from linkforge_compile.units import parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.formats.ros2_controllers.kinds import Kind
+    from linkforge_compile.formats.ros2_controllers.parameters import Type
     from linkforge_compile.source import SourceRef
 
 UPDATE_RATE = 100
@@ -25,16 +26,16 @@ UPDATE_RATE = 100
 def controllers_view(robot: Robot) -> View:
     """Return what templates see: the parameters of the manager, and the controllers with `type` and `parameters`."""
     manager = robot.controllers.get(MANAGER)
-    stated = _placed(manager.parameters, manager.source, "parameters") if manager else {}
+    stated = typed_parameters(manager) if manager else {}
     return View(
-        manager={"update_rate": UPDATE_RATE} | stated,
+        manager=stated if "update_rate" in stated else {"update_rate": UPDATE_RATE, **stated},
         controllers=[_view(one) for one in complete_controllers(robot)],
     )
 
 
 def _view(controller: Controller) -> View:
     kind = kind_of(controller.type)
-    parameters = {**dict(_of_fields(controller, kind)), **_typed(controller, kind)}
+    parameters = {**dict(_of_fields(controller, kind)), **typed_parameters(controller)}
     return View(
         name=placed(controller.name, controller.source),
         type=placed(controller.type or "", controller.source, "type"),
@@ -52,23 +53,22 @@ def _of_fields(controller: Controller, kind: Kind) -> Iterator[tuple[str, object
             yield placed(name, controller.source, field), written
 
 
-def _typed(controller: Controller, kind: Kind) -> dict[str, object]:
-    """Return the parameters; for a class that is known, quantities in SI units, and decimals where it expects them."""
+def typed_parameters(controller: Controller) -> dict[str, object]:
+    """Return the parameters; where the type of one is known, quantities in SI units and numbers with decimals."""
     values = _placed(controller.parameters, controller.source, "parameters")
-    whole = kind.whole
-    return values if whole is None else {name: _number(value, name in whole) for name, value in values.items()}
+    declared = PARAMETERS.get(MANAGER if controller.name == MANAGER else controller.type or "")
+    return values if declared is None else _converted(values, declared)
 
 
-def _number(value: object, is_whole: bool) -> object:
-    if isinstance(value, int) and not isinstance(value, bool):
-        return value if is_whole else float(value)
-    if isinstance(value, str) and (quantity := parse_quantity(value)):
-        return quantity.value
-    if isinstance(value, dict):
-        return {key: _number(item, is_whole) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_number(item, is_whole) for item in value]
-    return value
+def _converted(values: dict[str, object], declared: Mapping[str, Type]) -> dict[str, object]:
+    converted: dict[str, object] = {}
+    for name, value in values.items():
+        type_ = type_of(name, declared, values) or ANY
+        if isinstance(type_, str):
+            converted[name] = convert(value, type_)
+        else:
+            converted[name] = _converted(value, type_) if isinstance(value, dict) else value
+    return converted
 
 
 def _placed(values: Mapping[str, object], source: SourceRef | None, *path: str) -> dict[str, object]:
@@ -84,7 +84,7 @@ def _placed(values: Mapping[str, object], source: SourceRef | None, *path: str) 
 
 
 def _of_one_type(value: object) -> object:
-    """Return a list of whole numbers and others with decimals alone; anything else as it is."""
+    """Return a list of integers and doubles with doubles alone; anything else as it is."""
     if not isinstance(value, list | tuple):
         return value
     is_mixed = any(isinstance(item, float) for item in value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.formats.format import Option, Rendering, TemplateFormat
+from linkforge_compile.formats.format import NO_YES, Option, Rendering, TemplateFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.sdf.view import SdfChoices
     from linkforge_compile.formats.views import View
 
-__all__ = ["MESHES", "VERSION", "Sdf"]
+__all__ = ["MESHES", "NESTED", "VERSION", "Sdf"]
 
 VERSION = Option(
     "sdf",
@@ -33,6 +33,8 @@ MESHES = Option(
     "(default: model)",
 )
 
+NESTED = Option("nested", NO_YES, "no", "make each module a model inside that of the robot (default: one model)")
+
 
 class Sdf(TemplateFormat):
     """The format SDF."""
@@ -44,12 +46,20 @@ class Sdf(TemplateFormat):
     keeps = "links, joints, inertials, shapes, materials, contact settings, sensors and plugins, with all their frames"
     loses = "planar joints, safety controllers, transmissions, and raw XML of a URDF"
     has_relative_paths = True
-    options = (VERSION, MESHES)
+    options = (VERSION, MESHES, NESTED)
+
+    def missing(self, robot: Robot) -> Diagnostic | None:
+        from linkforge_compile.formats.sdf.limits import missing_body
+
+        return missing_body(robot)
 
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
         from linkforge_compile.formats.sdf.limits import sdf_limits
 
         yield from sdf_limits(robot, self._choices(options), lambda: self.text(robot, Rendering(options)))
+
+    def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
+        return MESHES.value(options) != "file"
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.sdf.view import robot_view
@@ -61,4 +71,7 @@ class Sdf(TemplateFormat):
         from linkforge_compile.formats.sdf.view import SdfChoices
 
         version = VERSION.value(options)
-        return SdfChoices(None if version == VERSION.default else version, MESHES.value(options) == "file")
+        is_least = version == VERSION.default
+        return SdfChoices(
+            None if is_least else version, MESHES.value(options) == "file", NESTED.value(options) == "yes"
+        )

@@ -14,6 +14,7 @@ from linkforge_compile.diagnostics.codes.formats import (
 )
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.sdf.models import SEPARATOR
 from linkforge_compile.formats.sdf.part_names import PartNames, repeated
 from linkforge_compile.formats.sdf.raw_sensors import collisions_in
 from linkforge_compile.formats.sdf.settings import OF_MODEL, Settings, settings_by_reference
@@ -26,9 +27,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.sdf.layout import Layout
     from linkforge_compile.source import SourceRef
 
-_NESTED = "::"
-"""Between the names of a nested model and of a part of it."""
-
 
 def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
     """Yield the names of a robot that Gazebo refuses, and those that are different in its SDF."""
@@ -40,27 +38,28 @@ def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
     yield from _unknown_collisions(robot, settings, names)
 
 
-def _is_reserved(name: str) -> bool:
-    return name == WORLD or _NESTED in name or (name.startswith("__") and name.endswith("__"))
+def is_reserved(name: str) -> bool:
+    """Whether a name is one that SDF has a meaning for."""
+    return name == WORLD or SEPARATOR in name or (name.startswith("__") and name.endswith("__"))
 
 
 def _reserved(robot: Robot, layout: Layout, settings: Mapping[str | None, Settings]) -> Iterator[Diagnostic]:
     """SDF has `world`, `__…__` and `…::…` for itself."""
-    if _is_reserved(robot.name):
+    if is_reserved(robot.name):
         yield RESERVED_IN_SDF.at(robot.source, "name", name=robot.name)
     for link in robot.links:
-        if _is_reserved(link.name) and not layout.is_world(link.name):
+        if is_reserved(link.name) and not layout.is_world(link.name):
             yield RESERVED_IN_SDF.at(link.source, name=link.name)
         for shape in link.shapes:
-            if shape.name and _is_reserved(shape.name):
+            if shape.name and is_reserved(shape.name):
                 yield RESERVED_IN_SDF.at(shape.source, "name", name=shape.name)
     parts: tuple[Joint | Sensor, ...] = (*robot.joints, *robot.sensors)
     for part in parts:
-        if _is_reserved(part.name):
+        if is_reserved(part.name):
             yield RESERVED_IN_SDF.at(part.source, name=part.name)
     for found in settings.values():
         for one in found:
-            name = next(filter(_is_reserved, one.names), None)
+            name = next(filter(is_reserved, one.names), None)
             if name and one.tag != "plugin":
                 yield RESERVED_IN_SDF.at(one.source, *one.path, name=name)
 

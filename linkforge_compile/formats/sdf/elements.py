@@ -10,6 +10,7 @@ from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped,
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.geometry import Transform
+    from linkforge_compile.formats.sdf.relative_pose import Pose
     from linkforge_compile.source import SourceRef
 
 
@@ -35,6 +36,12 @@ def pose(origin: Transform, relative_to: str | None = None) -> Xml:
         return NOTHING
     attributes = attributes_at(origin.source, relative_to=relative_to)
     return Xml(f"<pose{attributes}>{spelled((*origin.xyz, *origin.rpy))}</pose>")
+
+
+def pose_between(found: Pose, relative_to: str) -> Xml:
+    """Return a pose that is computed: a quaternion has no angles for which its numbers are inexact."""
+    attributes = attributes_at(None, relative_to=relative_to, rotation_format="quat_xyzw")
+    return Xml(f"<pose{attributes}>{spelled((*found.xyz, *found.turn))}</pose>")
 
 
 def pose_of_frame(relative_to: str | None) -> Xml:

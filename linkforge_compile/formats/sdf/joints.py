@@ -3,42 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Vector3
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import AXES, Joint, JointType
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import WORLD
-from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
+from linkforge_compile.formats.sdf.elements import parent, pose, text
 from linkforge_compile.formats.sdf.layout import MODEL, Layout
+from linkforge_compile.formats.sdf.models import Models
 from linkforge_compile.formats.sdf.settings import Settings, joint_physics, spring_elements
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-
 _TYPES = {JointType.CONTINUOUS: "revolute"}
-_X = Vector3(1.0, 0.0, 0.0)
 
 
-def joint_view(joint: Joint, layout: Layout, settings: Settings, sensors: Sequence[View], *, has_mimic: bool) -> View:
+def joint_view(
+    joint: Joint, layout: Layout, models: Models, settings: Settings, sensors: Sequence[View], *, has_mimic: bool
+) -> View:
     """Return a joint; its frame is that of its child, as in URDF, so that the axis has the same numbers."""
-    is_on_world = layout.is_world(joint.parent)
+    is_on_world, model = layout.is_world(joint.parent), models.of_joint(joint)
+    above = models.link_in(model, joint.parent)
     return View(
         attributes=attributes_at(
             joint.source, name=layout.joint_names[joint.name], type=_TYPES.get(joint.type, joint.type)
         ),
-        pose=pose(joint.origin, relative_to=MODEL if is_on_world else joint.parent),
-        parent=text("parent", WORLD if is_on_world else joint.parent, joint.source, "parent"),
-        child=text("child", joint.child, joint.source, "child"),
-        axis=NOTHING if joint.type == JointType.FIXED else _axis(joint, layout, settings, has_mimic=has_mimic),
+        pose=pose(joint.origin, relative_to=MODEL if is_on_world else above),
+        parent=text("parent", WORLD if is_on_world else above, joint.source, "parent"),
+        child=text("child", models.link_in(model, joint.child), joint.source, "child"),
+        axis=NOTHING if joint.type == JointType.FIXED else _axis(joint, models, settings, has_mimic=has_mimic),
         physics=joint_physics(settings),
         sensors=sensors,
     )
 
 
-def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) -> Xml:
+def _axis(joint: Joint, models: Models, settings: Settings, *, has_mimic: bool) -> Xml:
     """Return an axis; a missing limit is 0, as to readers of URDF, and a continuous joint has none."""
     limits, dynamics, source = joint.limits, joint.dynamics, joint.source
     of_limits: list[Xml] = []
@@ -54,16 +52,16 @@ def _axis(joint: Joint, layout: Layout, settings: Settings, *, has_mimic: bool) 
         of_dynamics.append(text("friction", dynamics.friction, dynamics.source, "friction"))
     return parent(
         "axis",
-        text("xyz", joint.axis or _X, source, "axis"),
+        text("xyz", joint.axis or AXES["x"], source, "axis"),
         parent("limit", *of_limits),
         parent("dynamics", *of_dynamics),
-        _mimic(joint, layout) if has_mimic else NOTHING,
+        _mimic(joint, models) if has_mimic else NOTHING,
     )
 
 
-def _mimic(joint: Joint, layout: Layout) -> Xml:
+def _mimic(joint: Joint, models: Models) -> Xml:
     mimic = joint.mimic
-    if mimic is None or not layout.robot.has_joint(mimic.joint):
+    if mimic is None or (leader := models.leader(joint)) is None:
         return NOTHING
     source = mimic.source
     inner = (
@@ -71,26 +69,22 @@ def _mimic(joint: Joint, layout: Layout) -> Xml:
         text("offset", mimic.offset, source, "offset"),
         text("reference", 0.0, source),
     )
-    return Xml(f"<mimic{attributes_at(source, joint=layout.joint_names[mimic.joint])}>{''.join(inner)}</mimic>")
+    return Xml(f"<mimic{attributes_at(source, joint=leader)}>{''.join(inner)}</mimic>")
 
 
-def frame_elements(robot: Robot, layout: Layout) -> list[Xml]:
-    """Return the frames of joints that are none in SDF, and of links without a body."""
-    joints = [_frame_of_joint(joint, layout) for joint in robot.joints if not layout.is_joint(joint)]
-    return joints + [_frame_of_link(link, layout) for link in layout.frames]
-
-
-def _frame_of_joint(joint: Joint, layout: Layout) -> Xml:
-    attached_to = None if layout.is_world(joint.parent) else joint.parent
+def joint_frame(joint: Joint, layout: Layout, models: Models) -> Xml:
+    """Return the frame of a joint that is none in SDF."""
+    is_on_world = layout.is_world(joint.parent)
+    attached_to = None if is_on_world else models.link_in(models.of_joint(joint), joint.parent)
     attributes = attributes_at(joint.source, name=layout.joint_names[joint.name], attached_to=attached_to)
     return Xml(f"<frame{attributes}>{pose(joint.origin)}</frame>")
 
 
-def _frame_of_link(name: str, layout: Layout) -> Xml:
-    """Return the frame of a link: at its joint, and on what carries it if that is below it."""
-    link, joint = layout.robot.links[name], layout.above.get(name)
+def link_frame(name: str, layout: Layout, models: Models) -> Xml:
+    """Return the frame of a link without a body: at its joint, and on what carries it if that is below it."""
+    link, joint, model = layout.robot.links[name], layout.above.get(name), models.of_link(name)
+    if name in layout.carriers:
+        attributes = attributes_at(link.source, name=name, attached_to=layout.carriers[name])
+        return Xml(f"<frame{attributes}>{models.place(name, model, is_frame=True)}</frame>")
     where = layout.joint_names[joint.name] if joint else MODEL
-    if name not in layout.carriers:
-        return Xml(f"<frame{attributes_at(link.source, name=name, attached_to=where)}/>")
-    attributes = attributes_at(link.source, name=name, attached_to=layout.carriers[name])
-    return Xml(f"<frame{attributes}>{pose_of_frame(where)}</frame>")
+    return Xml(f"<frame{attributes_at(link.source, name=name, attached_to=where)}/>")

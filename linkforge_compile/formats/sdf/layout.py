@@ -12,6 +12,7 @@ from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.sensor import SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, settings_by_reference
+from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 
 MODEL = "__model__"
 """The frame of the model, where its root link is."""
-
-_WITH_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
 @dataclass(frozen=True)
@@ -94,7 +93,7 @@ class Layout:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
         if joint.type == JointType.FIXED:
             return self.body_of(joint.child) != self.body_of(joint.parent)
-        return joint.type in _WITH_AXIS
+        return joint.type in SINGLE
 
     @cached_property
     def joint_names(self) -> Mapping[str, str]:
@@ -106,15 +105,6 @@ class Layout:
             names[joint.name] = unique_name(name, taken)
             taken.add(names[joint.name])
         return names
-
-    def canonical_link(self) -> str | None:
-        """Return the link that the frame of the model moves with; None for the first one, as is the default."""
-        bodies = [link.name for link in self.robot.links if self.is_body(link)]
-        root = next((link.name for link in self.robot.links if link.name not in self.above), None)
-        if root is None or self.is_world(root):
-            return None
-        body = self.body_of(root)
-        return None if bodies[:1] == [body] else body
 
     def is_body(self, link: Link) -> bool:
         """Whether a link is a link in SDF, and neither a frame nor the world."""

@@ -11,22 +11,36 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
-    MESH_STAYS_A_URI,
+    MIMIC_OF_ENGINE,
+    NO_BODY_IN_SDF,
     NO_MIMIC_IN_SDF,
+    NOT_FOUND_NESTED,
     NOT_IN_SDF,
+    RESERVED_IN_SDF,
+    STAYS_A_URI,
     WEIGHTLESS_IN_SDF,
 )
 from linkforge_compile.formats.limits import check_attributes, check_texts
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
-from linkforge_compile.formats.sdf.check_names import check_names
+from linkforge_compile.formats.sdf.check_names import check_names, is_reserved
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.losses import lost_parts
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.models import ROBOT, Models
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
+from linkforge_compile.formats.single_axis import leader_of
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic
+
+
+def missing_body(robot: Robot) -> Diagnostic | None:
+    """Return why a robot is no model of Gazebo; None where it is."""
+    layout = Layout.of(robot)
+    if any(layout.is_body(link) for link in robot.links):
+        return None
+    return NO_BODY_IN_SDF.at(robot.source, "name", robot=robot.name)
 
 
 def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> Iterator[Diagnostic]:
@@ -40,6 +54,8 @@ def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> 
     yield from check_joints(robot, has_mimic=sdf_version(robot, choices) == WITH_MIMIC)
     if choices.has_files:
         yield from check_files(robot)
+    if choices.is_nested:
+        yield from check_nested(robot, layout)
     for parts, name, source, path in lost_parts(robot, layout):
         yield NOT_IN_SDF.at(source, *path, parts=parts, name=name)
 
@@ -56,17 +72,38 @@ def check_bodies(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
 
 
 def check_joints(robot: Robot, *, has_mimic: bool) -> Iterator[Diagnostic]:
-    """SDF has no planar joints, and mimic joints in its later versions."""
+    """SDF has no planar joints, and mimic joints in its later versions, which not every engine moves."""
     for joint in robot.joints:
         if joint.type == JointType.PLANAR:
             yield FREE_IN_SDF.at(joint.source, "type", joint=joint.name, link=joint.child)
-        if joint.mimic and not has_mimic:
-            yield NO_MIMIC_IN_SDF.at(joint.source, "mimic", joint=joint.name)
+        if leader_of(joint, robot):
+            code = MIMIC_OF_ENGINE if has_mimic else NO_MIMIC_IN_SDF
+            yield code.at(joint.source, "mimic", joint=joint.name)
+
+
+def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
+    """A module has a name that SDF keeps for nothing else, and gz_ros2_control looks into the outermost model alone."""
+    models = Models(layout, is_nested=True)
+    uses = {use.module: use for link in robot.links if link.source for use in link.source.trail}
+    for name in dict.fromkeys(model[-1] for model in models.all if model):
+        if is_reserved(name):
+            yield RESERVED_IN_SDF.at(uses[name], name=name)
+    for hardware in robot.ros2_controls:
+        for joint in hardware.joints if hardware.hardware_plugin.startswith(_OF_GAZEBO) else ():
+            if robot.has_joint(joint.name) and models.of_joint(robot.joints[joint.name]) != ROBOT:
+                yield NOT_FOUND_NESTED.at(joint.source, joint=joint.name)
+
+
+_OF_GAZEBO = ("gz_ros2_control/", "ign_ros2_control/")
 
 
 def check_files(robot: Robot) -> Iterator[Diagnostic]:
-    """A mesh that is not on this machine has no file that an SDF could refer to."""
+    """A mesh or texture that is not on this machine has no file that an SDF could refer to."""
     uris = MeshUris(robot, is_resolved=True)
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
-            yield MESH_STAYS_A_URI.at(mesh.source, "file", file=mesh.resource)
+            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource)
+    for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
+        texture = material.texture if material else None
+        if material and texture and "://" in texture and uris.file(texture) is None:
+            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture)

@@ -10,9 +10,10 @@ from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geome
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link, Visual
 from linkforge_compile.core.moments import possible_inertia, principal_moments
 from linkforge_compile.formats.element import attributes_at
-from linkforge_compile.formats.sdf.elements import parent, pose, pose_of_frame, text
+from linkforge_compile.formats.sdf.elements import parent, pose, text
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.models import Models
 from linkforge_compile.formats.sdf.part_names import NamedShape, PartNames
 from linkforge_compile.formats.sdf.raw_sensors import sensor_elements
 from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
@@ -29,16 +30,18 @@ LEAST_MASS = 1e-9
 class Links:
     """Makes the views of the links that are bodies."""
 
-    def __init__(self, robot: Robot, layout: Layout, settings: Mapping[str | None, Settings], uris: MeshUris) -> None:
-        self._layout, self._settings, self._uris = layout, settings, uris
+    def __init__(
+        self, robot: Robot, layout: Layout, models: Models, settings: Mapping[str | None, Settings], uris: MeshUris
+    ) -> None:
+        self._layout, self._models, self._settings, self._uris = layout, models, settings, uris
         self.names = PartNames(layout, settings)
 
     def view(self, link: Link, sensors: Mapping[str, list[View]]) -> View:
         """Return a link with the shapes and sensors of all that it holds; `sensors` are those of each link."""
-        joint, held = self._layout.above.get(link.name), self._layout.held[link.name]
+        held = self._layout.held[link.name]
         return View(
             attributes=attributes_at(link.source, name=link.name),
-            pose=pose_of_frame(self._layout.joint_names[joint.name] if joint else None),
+            pose=self._models.place(link.name, self._models.of_link(link.name)),
             inertial=inertial_element(link, is_weightless=link.name in self._layout.weightless),
             settings=self._settings_of(link, held),
             visuals=[self._visual(each, link) for one in held for each in self.names.visuals[one.name]],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.geometry import Transform
-from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission
@@ -19,8 +19,10 @@ from linkforge_compile.formats.sdf.settings import (
     OF_FRAME,
     OF_JOINT,
     OF_MODEL,
+    replaced_settings,
     settings_by_reference,
 )
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -34,13 +36,7 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
     """Yield each part that is left out, under the words for its kind."""
     yield from _losses_of_world(robot, layout)
     for joint in robot.joints:
-        limits = joint.limits
-        if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
-            yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
-        if joint.safety_controller:
-            yield "safety controllers", joint.name, joint.source, ("safety_controller",)
-        if joint.calibration:
-            yield "calibrations", joint.name, joint.source, ("calibration",)
+        yield from _of_joint(joint, robot)
     for transmission in robot.transmissions:
         yield "transmissions", transmission.name, transmission.source, ()
     for sensor in robot.sensors:
@@ -48,11 +44,36 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
         if sensor.type == SensorType.FORCE_TORQUE and not (above and layout.is_joint(above)):
             yield "force-torque sensors without a joint", sensor.name, sensor.source, ("link",)
     yield from _lost_settings(robot, layout)
+    for reference, setting in replaced_settings(robot):
+        words = f"second <surface>, so no place for the setting '{setting.tag}'"
+        yield words, reference, setting.source, setting.path
     for block in robot.gazebo_elements:
         if block.reference is not None:
             for plugin in block.plugins:
                 yield "plugins of links and joints", plugin.name, plugin.source, ()
     yield from _lost_xml(robot)
+
+
+def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
+    limits = joint.limits
+    if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
+        yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
+    if joint.safety_controller:
+        yield "safety controllers", joint.name, joint.source, ("safety_controller",)
+    if joint.calibration:
+        yield "calibrations", joint.name, joint.source, ("calibration",)
+    if joint.mimic and leader_of(joint, robot) is None:
+        yield "mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source, ()
+    if joint.type == JointType.FLOATING:
+        yield from _of_floating(joint)
+
+
+def _of_floating(joint: Joint) -> Iterator[Loss]:
+    limits, dynamics = joint.limits, joint.dynamics
+    if limits:
+        yield "limits of floating joints", joint.name, limits.source or joint.source, ()
+    if dynamics and (dynamics.damping or dynamics.friction):
+        yield "dynamics of floating joints", joint.name, dynamics.source or joint.source, ()
 
 
 def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:

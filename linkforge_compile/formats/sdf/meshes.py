@@ -23,7 +23,7 @@ class MeshUris:
         """Return the URI of a file; one that is not found on this machine is not resolved."""
         path = self.file(resource) if self._is_resolved else None
         if path:
-            return path.as_uri()
+            return path.as_posix()  # Gazebo decodes no `%20` of a URI
         return _MODEL + resource.removeprefix(_PACKAGE) if resource.startswith(_PACKAGE) else resource
 
     def file(self, resource: str) -> Path | None:

@@ -108,6 +108,8 @@ OF_MODEL = frozenset(
     ("plugin", "gripper", "frame", "joint", "link", "model", "include", "static", "self_collide", "allow_auto_disable")
 )
 
+_FLAGS_OF_MODELS = frozenset(("static", "self_collide", "allow_auto_disable"))
+
 _LINK_FLAGS = {
     "gravity": "gravity",
     "selfCollide": "self_collide",
@@ -148,6 +150,11 @@ def model_elements(settings: Settings) -> Xml:
     return _elements_with(OF_MODEL, settings)
 
 
+def nested_model_elements(settings: Settings) -> Xml:
+    """Return the settings of the robot that hold for each of its models."""
+    return _elements_with(_FLAGS_OF_MODELS, settings)
+
+
 def link_elements(settings: Settings) -> Xml:
     """Return the settings of a link that are elements of the link itself, but for sensors."""
     by_tag = _by_tag(settings)
@@ -165,8 +172,20 @@ def collision_elements(settings: Settings) -> Xml:
     by_tag = _by_tag(settings)
     friction = parent("friction", parent("ode", *_tags_for(by_tag, _FRICTION)))
     contact = parent("contact", parent("ode", *_tags_for(by_tag, _CONTACT)))
-    surface = parent("surface", contact, friction)
-    return Xml("".join([*_tags_for(by_tag, _COLLISION), surface, shape_elements("collision", settings)]))
+    of_gazebo = shape_elements("collision", settings)
+    surface = NOTHING if _has_surface(of_gazebo) else parent("surface", contact, friction)
+    return Xml("".join([*_tags_for(by_tag, _COLLISION), surface, of_gazebo]))
+
+
+def replaced_settings(robot: Robot) -> Iterator[tuple[str, Setting]]:
+    """Yield the settings of contacts that a <surface> of the user's replaces, each with the name of its link."""
+    for reference, settings in settings_by_reference(robot).items():
+        if reference is not None and _has_surface(shape_elements("collision", settings)):
+            yield from ((reference, one) for one in settings if one.tag in _FRICTION or one.tag in _CONTACT)
+
+
+def _has_surface(elements: Xml) -> bool:
+    return any(element.tag == "surface" for element in well_formed_elements(elements))
 
 
 def shape_elements(tag: str, settings: Settings) -> Xml:

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.formats.element import attributes_at, placed
 from linkforge_compile.formats.sdf.elements import pose
-from linkforge_compile.formats.sdf.joints import frame_elements, joint_view
+from linkforge_compile.formats.sdf.joints import joint_frame, joint_view, link_frame
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import Links
 from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.models import ROBOT, Model, Models
 from linkforge_compile.formats.sdf.part_names import PartNames
-from linkforge_compile.formats.sdf.settings import model_elements, settings_by_reference
+from linkforge_compile.formats.sdf.settings import (
+    Settings,
+    model_elements,
+    nested_model_elements,
+    settings_by_reference,
+)
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
 from linkforge_compile.formats.views import View
+from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -30,46 +38,82 @@ COMMON = "1.9"
 
 
 class SdfChoices(NamedTuple):
-    """The user's choices: a version of SDF, None for the least that holds the robot, and what meshes refer to."""
+    """The user's choices: a version of SDF, None for the least that holds the robot, and what meshes refer to.
+
+    If `is_nested`, each module is a model.
+    """
 
     version: str | None = None
     has_files: bool = False
+    is_nested: bool = False
 
 
 def sdf_version(robot: Robot, choices: SdfChoices) -> str:
     """Return the version of the document."""
-    return choices.version or (WITH_MIMIC if any(joint.mimic for joint in robot.joints) else COMMON)
+    return choices.version or (WITH_MIMIC if any(leader_of(joint, robot) for joint in robot.joints) else COMMON)
 
 
 def robot_view(robot: Robot, choices: SdfChoices) -> View:
-    """Return what templates see of a robot in SDF."""
-    layout, settings, version = Layout.of(robot), settings_by_reference(robot), sdf_version(robot, choices)
-    links = Links(robot, layout, settings, MeshUris(robot, is_resolved=choices.has_files))
-    on_links, in_joints = _sensors(robot, layout, links.names)
-    return View(
-        version=version,
-        attributes=attributes_at(robot.source, "name", name=robot.name, canonical_link=layout.canonical_link()),
-        settings=model_elements(settings.get(None, ())),
-        frames=frame_elements(robot, layout),
-        links=[links.view(link, on_links) for link in robot.links if layout.is_body(link)],
-        joints=[
-            joint_view(
-                joint,
-                layout,
-                settings.get(joint.name, ()),
-                in_joints.get(joint.name, ()),
-                has_mimic=version == WITH_MIMIC,
-            )
-            for joint in robot.joints
-            if layout.is_joint(joint)
-        ],
-        plugins=[
-            plugin_view(plugin)
-            for block in robot.gazebo_elements
-            if block.reference is None
-            for plugin in block.plugins
-        ],
-    )
+    """Return what templates see of a robot in SDF: its version, and the view of the outermost model."""
+    version, settings = sdf_version(robot, choices), settings_by_reference(robot)
+    layout = Layout.of(robot)
+    models = Models(layout, is_nested=choices.is_nested)
+    uris = MeshUris(robot, is_resolved=choices.has_files)
+    views = _ModelViews(layout, models, settings, uris, has_mimic=version == WITH_MIMIC)
+    attributes = attributes_at(robot.source, "name", name=robot.name, canonical_link=models.canonical_link(ROBOT))
+    plugins = [
+        plugin_view(plugin) for block in robot.gazebo_elements if block.reference is None for plugin in block.plugins
+    ]
+    of_robot = model_elements(settings.get(None, ()))
+    return View(version=version, model=views.view(ROBOT, attributes, NOTHING, of_robot, plugins))
+
+
+class _ModelViews:
+    """Makes the views of models, with the parts in them and the models inside."""
+
+    def __init__(
+        self,
+        layout: Layout,
+        models: Models,
+        settings: Mapping[str | None, Settings],
+        uris: MeshUris,
+        *,
+        has_mimic: bool,
+    ) -> None:
+        robot = layout.robot
+        self._models, self._flags = models, nested_model_elements(settings.get(None, ()))
+        links = Links(robot, layout, models, settings, uris)
+        on_links, in_joints = _sensors(robot, layout, links.names)
+        self._frames: dict[Model, list[Xml]] = defaultdict(list)
+        self._links: dict[Model, list[View]] = defaultdict(list)
+        self._joints: dict[Model, list[View]] = defaultdict(list)
+        for joint in robot.joints:
+            if layout.is_joint(joint):
+                found = settings.get(joint.name, ()), in_joints.get(joint.name, ())
+                view = joint_view(joint, layout, models, *found, has_mimic=has_mimic)
+                self._joints[models.of_joint(joint)].append(view)
+            else:
+                self._frames[models.of_joint(joint)].append(joint_frame(joint, layout, models))
+        for name in layout.frames:
+            self._frames[models.of_link(name)].append(link_frame(name, layout, models))
+        for link in robot.links:
+            if layout.is_body(link):
+                self._links[models.of_link(link.name)].append(links.view(link, on_links))
+
+    def view(self, model: Model, attributes: Xml, pose: Xml, settings: Xml, plugins: Sequence[View] = ()) -> View:
+        return View(
+            attributes=attributes,
+            pose=pose,
+            settings=settings,
+            frames=self._frames[model],
+            links=self._links[model],
+            joints=self._joints[model],
+            models=[
+                self.view(inner, self._models.attributes(inner), self._models.pose(inner), self._flags)
+                for inner in self._models.inside(model)
+            ],
+            plugins=plugins,
+        )
 
 
 def _sensors(

@@ -10,8 +10,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
-from typing import IO, NamedTuple, Protocol, TypedDict
+from typing import IO, NamedTuple, TypedDict
 
+from linkforge_compile.importers.xacro.answers import XacroAnswers
 from linkforge_compile.importers.xacro.process import MARK
 from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import Bounds, XmlAttribute, XmlComment, XmlContent, XmlDocument, XmlElement
@@ -19,18 +20,6 @@ from linkforge_compile.source.xml_tree import Bounds, XmlAttribute, XmlComment, 
 MAX_SECONDS = 60
 _MAX_CHARACTERS = 64 * 1024**2
 _PROGRAM = Path(__file__).with_name("process.py")
-
-
-class Answers(Protocol):
-    """Answers the questions of the xacro process."""
-
-    def find(self, name: str) -> Path | None:
-        """Return the folder of a package, None if it is not found."""
-        ...
-
-    def may_read(self, path: Path) -> bool:
-        """Whether a file or folder may be read."""
-        ...
 
 
 class Place(NamedTuple):
@@ -97,7 +86,7 @@ class _Answer(TypedDict, total=False):
     place: str | None
 
 
-def run_xacro(path: Path, arguments: Mapping[str, str], answers: Answers) -> Expanded | Failed:
+def run_xacro(path: Path, arguments: Mapping[str, str], answers: XacroAnswers) -> Expanded | Failed:
     """Expand a xacro file.
 
     xacro evaluates the expressions of the file as Python code, so running it means trusting the file like a program.
@@ -127,7 +116,7 @@ def run_xacro(path: Path, arguments: Mapping[str, str], answers: Answers) -> Exp
     return _outcome(answer)
 
 
-def _reply(question: _Answer, answers: Answers) -> str | bool | None:
+def _reply(question: _Answer, answers: XacroAnswers) -> str | bool | None:
     if "may_read" in question:
         return answers.may_read(Path(question["may_read"]))
     folder = answers.find(question["find"])

@@ -24,6 +24,7 @@ class XacroAnswers:
         """Files outside of the roots."""
 
     def find(self, name: str) -> Path | None:
+        """Return the folder of a package, None if it is not found."""
         if name not in self._folders:
             found = folders_for_xacro(name, self._declared, self._main.parent, self._roots)
             self._folders[name] = list(dict.fromkeys(folder.absolute() for folder in found))
@@ -37,6 +38,7 @@ class XacroAnswers:
         return {name: folders[0] for name, folders in self._folders.items() if folders}
 
     def may_read(self, path: Path) -> bool:
+        """Whether a file or folder may be read."""
         # The loader has read the file itself already.
         is_allowed = path == self._main.absolute() or self._roots.hold(path)
         if not is_allowed:
