@@ -141,7 +141,7 @@ class Format(ABC):
         return (target / self.files[0] if self.files else target).parent
 
     def missing(self, robot: Robot) -> Diagnostic | None:
-        """Return why the format has nothing to write for a robot; None where it has."""
+        """Return why the format has nothing to write for a robot; None if it has something."""
         return None
 
     def view(self, robot: Robot, options: Options) -> object:

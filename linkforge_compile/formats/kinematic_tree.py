@@ -61,7 +61,7 @@ class KinematicTree(NamedTuple):
             held += [joint.child for joint in self.below.get(name, ()) if joint.type == JointType.FIXED]
 
     def fixed_to(self, link: str) -> Iterator[str]:
-        """Yield the links that one fixed joint parts from a link, the one above it first."""
+        """Yield the links that a fixed joint connects with a link directly, the one above it first."""
         joint = self.above.get(link)
         if joint and joint.type == JointType.FIXED:
             yield joint.parent

@@ -253,6 +253,17 @@ def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_
     assert mjcf_model(robot).ngeom == 0
 
 
+def test_a_mesh_of_one_triangle_is_left_out_as_mujoco_refuses_it(tmp_path: Path):
+    (tmp_path / "one.stl").write_bytes(triangles(1))
+    (tmp_path / "flat.stl").write_bytes(triangles(2))
+    robot = compiled_in(tmp_path, "links: {base: {visual: [{mesh: one.stl}, {mesh: flat.stl}]}}")
+    assert [one.message for one in MJCF.limits(robot, {})] == [
+        "mesh 'one.stl' is left out of the MJCF: MuJoCo refuses a mesh of one triangle"
+    ]
+    (tmp_path / "robot.mjcf").write_text(MJCF.render(robot, Rendering())[0].text)
+    assert mujoco.MjModel.from_xml_path(str(tmp_path / "robot.mjcf")).ngeom == 1
+
+
 def test_the_command_of_the_manual_converts_a_mesh(tmp_path: Path):
     trimesh = pytest.importorskip("trimesh")
     page = (ROOT / "docs" / "diagnostics" / "LF7404.md").read_text()

@@ -248,11 +248,11 @@ def test_a_joint_with_the_name_of_a_link_is_renamed(tmp_path: Path):
         (
             "links: {base: {inertial: *unit}, world: {inertial: *unit}}\n"
             "joints: {weld: {type: fixed, parent: base, child: world}}",
-            ["LF7505 SDF has the name 'world' for a frame of its own; rename this one"],
+            ["LF7505 'world' is reserved in SDF; rename this one"],
         ),
         (
             "links: {base: {inertial: *unit, gazebo: {properties: {sensor: {_name: 'head::imu', _type: imu}}}}}",
-            ["LF7505 SDF has the name 'head::imu' for a frame of its own; rename this one"],
+            ["LF7505 'head::imu' is reserved in SDF; rename this one"],
         ),
         (
             TWO + "joints: {glide: {type: planar, parent: base, child: hand, axis: z}}",

@@ -185,7 +185,7 @@ ros2_control: {{left: {{hardware_plugin: PLUGIN, joints: {{left_hand_bend: {{com
         (CONTROLLED.replace("PLUGIN", "mock_components/GenericSystem"), []),
         (
             f"links: {{torso: {{{UNIT}}}}}\nmodules: {{__left__: {{use: arm.robot.yaml, parent: torso, prefix: l_}}}}",
-            ["LF7505 SDF has the name '__left__' for a frame of its own; rename this one"],
+            ["LF7505 '__left__' is reserved in SDF; rename this one"],
         ),
     ],
 )

@@ -177,7 +177,7 @@ RENAMED_IN_SDF = Code(
     "links and joints share their names in SDF, so joint '{joint}' is '{name}' there; rename the joint or the link",
     subject="joint",
 )
-RESERVED_IN_SDF = Code("LF7505", _E, "SDF has the name '{name}' for a frame of its own; rename this one")
+RESERVED_IN_SDF = Code("LF7505", _E, "'{name}' is reserved in SDF; rename this one")
 NO_MIMIC_IN_SDF = Code(
     "LF7506",
     _W,

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def missing_joints(robot: Robot) -> Diagnostic | None:
-    """Return why a robot has no limits to write; None where it has."""
+    """Return why a robot has no limits to write; None if it has some."""
     return None if actuated_joints(robot) else NO_MOVING_JOINT.at(robot.source, "name", robot=robot.name)
 
 

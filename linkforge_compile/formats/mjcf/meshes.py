@@ -59,6 +59,8 @@ def _fault(mesh: Mesh, path: Path | None) -> str | None:
         return "the file is not found"
     # The size alone shows a binary STL; no file of a stranger's spec is opened.
     triangles, rest = divmod(path.stat().st_size - _STL_HEADER, _STL_TRIANGLE)
+    if ending == ".stl" and not rest and triangles == 1:
+        return "MuJoCo refuses a mesh of one triangle"
     if ending == ".stl" and (rest or not 0 < triangles <= _MAX_TRIANGLES):
         return f"MuJoCo reads binary STL of up to {_MAX_TRIANGLES:,} triangles; {_CONVERT}"
     return None

@@ -42,7 +42,7 @@ def sensor_loss(sensor: Sensor) -> str | None:
 
 
 def sensor_losses(sensor: Sensor) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield what MuJoCo has not of a sensor, all of it or some, and the path to it."""
+    """Yield the parts of a sensor, or the whole sensor, that MuJoCo does not have, with their paths."""
     if loss := sensor_loss(sensor):
         yield loss, ("type",)
         return

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def missing_groups(robot: Robot) -> Diagnostic | None:
-    """Return why a robot has no configuration; None where it has."""
+    """Return why a robot has no configuration; None if it has one."""
     if any(joints_by_group(robot).values()):
         return None
     return NO_GROUP_TO_PLAN.at(robot.source, "name", robot=robot.name)

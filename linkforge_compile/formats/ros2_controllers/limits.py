@@ -44,7 +44,7 @@ _FIELDS = ("joints", "left_wheels", "right_wheels", "sensor", "frame", "command_
 
 
 def missing_hardware(robot: Robot) -> Diagnostic | None:
-    """Return why a robot has no controllers; None where it has."""
+    """Return why a robot has no controllers; None if it has some."""
     if robot.ros2_controls or robot.controllers:
         return None
     return NO_HARDWARE.at(robot.source, "name", robot=robot.name)
