@@ -28,6 +28,8 @@ _CAMERAS = (SensorType.CAMERA, SensorType.DEPTH_CAMERA, SensorType.RGBD_CAMERA)
 
 _USUAL_CLIP = (DEFAULT_CAMERA_NEAR, DEFAULT_CAMERA_FAR)
 
+PLUGINS = "plugins of sensors"
+
 _WIDEST = 179.0
 """MuJoCo refuses a field of view of half a turn [deg]."""
 
@@ -42,12 +44,12 @@ def sensor_loss(sensor: Sensor) -> str | None:
 
 
 def sensor_losses(sensor: Sensor) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield what MuJoCo has not of a sensor, all of it or some, and the path to it."""
+    """Yield the kinds of parts of a sensor that MuJoCo has no counterpart for, and their paths."""
     if loss := sensor_loss(sensor):
         yield loss, ("type",)
         return
     if sensor.plugin:
-        yield "plugins of sensors", ("plugin",)
+        yield PLUGINS, ("plugin",)
     camera, imu, wrench = sensor.camera_info, sensor.imu_info, sensor.force_torque_info
     if camera and camera.noise:
         yield "noise of cameras", ("camera", "noise")
