@@ -56,6 +56,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     shapes.check_unseen_collisions,
     sensors.check_sensor_links,
     sensors.check_sensor_frames,
+    sensors.check_scanners,
     sensors.check_contacts,
     sensors.check_topics,
     sensors.check_shared_topics,

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.sensor import INFO_FIELDS
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
+from linkforge_compile.diagnostics.codes.model import SCANNER_WITHOUT_RAYS
 from linkforge_compile.diagnostics.codes.names import (
     REFUSED_TOPIC,
     SHARED_TOPIC,
@@ -57,6 +59,16 @@ def check_sensor_frames(robot: Robot, unresolved: UnresolvedNames) -> Iterator[D
         if sensor.frame
     )
     yield from report_unknown(frames, UNKNOWN_FRAME, robot.links.names, unresolved)
+
+
+def check_scanners(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """A laser scanner has rays.
+
+    Gazebo gives a sensor without a scan no rays, so that it measures nothing. `lidar: {}` has the defaults.
+    """
+    for sensor in robot.sensors:
+        if INFO_FIELDS[sensor.type] == "lidar_info" and sensor.lidar_info is None and not sensor.extra_elements:
+            yield SCANNER_WITHOUT_RAYS.at(sensor.source, "type", name=sensor.name, type=sensor.type)
 
 
 def check_contacts(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS, Joint
-from linkforge_compile.core.models.sensor import REQUIRED_INFO, Sensor
+from linkforge_compile.core.models.sensor import INFO_FIELDS, Sensor
 
 KeysByType: TypeAlias = Mapping[tuple[str, ...], tuple[str, ...]]
 """Keys by the types that have no use for them."""
@@ -17,10 +17,7 @@ KeysByType: TypeAlias = Mapping[tuple[str, ...], tuple[str, ...]]
 def keys_by_type() -> dict[str, KeysByType]:
     """Return the keys by the definition of their object in the language's schema."""
     joints = {"axis": HAVE_NO_AXIS, "limits": HAVE_NO_LIMITS}
-    sensors = {
-        field: [type_ for type_, required in REQUIRED_INFO.items() if required != field]
-        for field in REQUIRED_INFO.values()
-    }
+    sensors = {field: [type_ for type_, own in INFO_FIELDS.items() if own != field] for field in INFO_FIELDS.values()}
     of_joints = _by_types(Joint, joints)
     return {"joint": of_joints, "module_joint": of_joints, "sensor": _by_types(Sensor, sensors)}
 

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.ros2_control import (
     Ros2ControlSensor,
     Ros2ControlType,
 )
-from linkforge_compile.core.models.sensor import REQUIRED_INFO, Sensor, SensorType
+from linkforge_compile.core.models.sensor import INFO_FIELDS, MAY_LACK_INFO, Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Note
@@ -68,7 +68,7 @@ def _lowered(parts: Iterable[tuple[str, T | None]]) -> list[T]:
 def _lower_sensor(fields: Fields, name: str) -> Sensor | None:
     sensor_type = fields.choice("type", SensorType, required="camera")
     values = lower_fields(Sensor, fields, name=name, type=sensor_type)
-    info = REQUIRED_INFO.get(sensor_type) if sensor_type else None
+    info = INFO_FIELDS[sensor_type] if sensor_type and sensor_type not in MAY_LACK_INFO else None
     if info and values[info] is None:
         spec = field_specs(Sensor)[info]
         if info == "contact_info":

@@ -3,7 +3,7 @@
 from lxml import etree
 
 from linkforge_compile import compile_text
-from linkforge_compile.diagnostics.codes.formats import NO_MESSAGES, NO_VELOCITY_LIMIT
+from linkforge_compile.diagnostics.codes.formats import NO_ACTUATOR, NO_MESSAGES, NO_VELOCITY_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.formats import MJCF, Rendering
 
@@ -12,7 +12,7 @@ name: robot
 x-unit: &unit {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}
 """
 
-USUAL = (NO_VELOCITY_LIMIT.id, NO_MESSAGES.id)
+USUAL = (NO_VELOCITY_LIMIT.id, NO_MESSAGES.id, NO_ACTUATOR.id)
 
 
 def compiled(text: str):

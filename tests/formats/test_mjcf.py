@@ -278,7 +278,7 @@ def test_the_command_of_the_manual_converts_a_mesh(tmp_path: Path):
 
 def test_parts_without_counterpart_are_reported_by_kind():
     assert reported(TURNING + "transmissions: {gear: {type: t, joints: {turn: }, actuators: {motor: }}}\n") == [
-        "LF7405 MJCF has no transmissions; that of 'gear' is left out"
+        "LF7413 MuJoCo does not read transmissions; that of 'gear' is left out"
     ]
 
 
@@ -286,7 +286,7 @@ def test_keeping_a_fixed_joint_is_no_loss():
     kept = "links: {base: , tip: }\njoints: {weld: {type: fixed, parent: base, child: tip, gazebo: {SETTING}}}"
     assert reported(kept.replace("SETTING", "preserveFixedJoint: true")) == []
     assert reported(kept.replace("SETTING", "stop_cfm: 0.5")) == [
-        "LF7405 MJCF has no settings for Gazebo; that of 'weld' is left out"
+        "LF7413 MuJoCo does not read settings for Gazebo; that of 'weld' is left out"
     ]
 
 

@@ -1,8 +1,9 @@
 """MJCF: what it has no place for is reported, at the place in the spec."""
 
+import mujoco
 import pytest
 
-from linkforge_compile.formats import MJCF
+from linkforge_compile.formats import MJCF, Rendering
 from tests.consumers import mjcf_model
 from tests.formats.mjcf import HEAD, compiled, document, every_report, reported
 
@@ -37,15 +38,18 @@ CASES = {
     "actuators of planar joints": hardware("drive"),
     "actuators for the command interface 'acceleration'": hardware(command="acceleration"),
     "initial velocity": hardware(state="{velocity: {initial_value: 1}}"),
-    "gpios": ROBOT + "ros2_control: {io: {hardware_plugin: a/B, gpios: {pins: {command_interfaces: [out]}}}}\n",
-    "sensors of hardware": ROBOT
-    + "ros2_control: {io: {type: sensor, hardware_plugin: a/B, sensors: {force: {state_interfaces: [x]}}}}\n",
     "raw XML of a URDF": ROBOT.replace("arm: {", "arm: {visual: {sphere: 1, extra: <note/>}, "),
     "noise of cameras": ROBOT
     + "sensors: {eye: {type: camera, link: arm, camera: {noise: {type: gaussian, stddev: 0.1}}}}\n",
     "noise other than a standard deviation": ROBOT
     + "sensors: {imu: {type: imu, link: arm, imu: {angular_velocity_noise: {stddev: 0.1, mean: 1}}}}\n",
     "clip distances of cameras": ROBOT + "sensors: {eye: {type: camera, link: arm, camera: {far_clip: 9 m}}}\n",
+}
+
+OF_OTHER_PROGRAMS = {
+    "gpios": ROBOT + "ros2_control: {io: {hardware_plugin: a/B, gpios: {pins: {command_interfaces: [out]}}}}\n",
+    "sensors of hardware": ROBOT
+    + "ros2_control: {io: {type: sensor, hardware_plugin: a/B, sensors: {force: {state_interfaces: [x]}}}}\n",
     "plugins of sensors": ROBOT
     + "sensors: {imu: {type: imu, link: arm, imu: {}, plugin: {name: publisher, filename: lib.so}}}\n",
 }
@@ -55,6 +59,32 @@ CASES = {
 def test_a_part_without_counterpart_is_reported(parts: str):
     assert [one.partition(";")[0] for one in reported(CASES[parts])] == [f"LF7405 MJCF has no {parts}"]
     assert mjcf_model(compiled(CASES[parts])).nbody == 4
+
+
+@pytest.mark.parametrize("parts", OF_OTHER_PROGRAMS)
+def test_a_part_for_another_program_has_a_code_of_its_own(parts: str):
+    found = [one.partition(";")[0] for one in reported(OF_OTHER_PROGRAMS[parts])]
+    assert found == [f"LF7413 MuJoCo does not read {parts}"]
+
+
+def test_settings_for_gazebo_are_reported_at_the_first_that_is_left_out():
+    robot = ROBOT.replace("arm: {", "arm: {gazebo: {mu1: 0.5, maxVel: 1, minDepth: 0.1}, ")
+    (found,) = [one for one in MJCF.limits(compiled(robot), {}) if one.code.id == "LF7413"]
+    assert found.span is not None
+    assert (HEAD + robot).splitlines()[found.span.line - 1][found.span.column - 1 :].startswith("1,")
+
+
+def test_a_robot_without_hardware_has_a_note_that_nothing_drives_it():
+    note = "LF7414 no joint of 'robot' has an actuator in the MJCF: `ros2_control` commands none of them"
+    assert note in every_report(ROBOT)
+    assert note not in every_report(hardware())
+
+
+def test_a_fixed_base_of_a_robot_that_moves_in_the_world_has_a_note():
+    moving = ROBOT + "semantic: {virtual_joints: {odom: {type: planar, parent_frame: world, child_link: base}}}\n"
+    note = "LF7415 virtual joint 'odom' is planar, but the robot is fixed to the world in the MJCF"
+    assert [one.partition(";")[0] for one in reported(moving)] == [note]
+    assert not any("LF7415" in one for one in reported(moving, base="free"))
 
 
 def test_a_loss_is_reported_at_its_place():
@@ -81,6 +111,19 @@ def test_friction_is_that_of_the_link(stated: str):
     assert reported(robot) == []
 
 
+@pytest.mark.parametrize(("mu", "dimensions"), [(0.5, 3), (0, 1)])
+def test_friction_holds_on_the_ground_which_has_more(mu: float, dimensions: int):
+    robot = ROBOT.replace("arm: {", f"arm: {{collision: {{sphere: 1}}, physics: {{mu: {mu}}}, ")
+    spec = mujoco.MjSpec.from_string(MJCF.render(compiled(robot), Rendering({}))[0].text)
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[9, 9, 1], pos=[0, 0, -0.99])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    (contact,) = data.contact
+    assert contact.dim == dimensions
+    assert contact.friction[0] == pytest.approx(max(mu, 1e-5))
+
+
 def test_velocity_limits_are_lost_unless_they_limit_a_command():
     lost = "LF7411 MuJoCo does not limit velocities; the limit of joint 'turn' is left out"
     assert lost in every_report(ROBOT)
@@ -89,9 +132,10 @@ def test_velocity_limits_are_lost_unless_they_limit_a_command():
 
 
 def test_sensors_send_no_messages():
-    assert every_report(ROBOT + "sensors: {imu: {type: imu, link: arm, imu: {}}}\n")[-1] == (
-        "LF7412 MuJoCo measures at every step and sends no messages; rate, topic and frame of 'imu' are left out"
-    )
+    lost = "LF7412 MuJoCo measures at every step and sends no messages; rate, topic and frame of 'imu' are left out"
+    imu = "sensors: {imu: {type: imu, link: arm, imu: {}}}\n"
+    assert lost in every_report(ROBOT + imu.replace("imu: {}", "imu: {}, topic: /imu"))
+    assert lost not in every_report(ROBOT + imu)
 
 
 TAKEN = """

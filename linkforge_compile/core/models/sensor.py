@@ -46,17 +46,22 @@ class SensorType(StrEnum):
 
 dump_like(SensorType, str)
 
-REQUIRED_INFO = {
+INFO_FIELDS = {
     SensorType.CAMERA: "camera_info",
     SensorType.DEPTH_CAMERA: "camera_info",
     SensorType.RGBD_CAMERA: "camera_info",
     SensorType.LIDAR: "lidar_info",
+    SensorType.RAY: "lidar_info",
+    SensorType.GPU_LIDAR: "lidar_info",
     SensorType.IMU: "imu_info",
     SensorType.GPS: "gps_info",
     SensorType.CONTACT: "contact_info",
     SensorType.FORCE_TORQUE: "force_torque_info",
 }
-"""The field that a sensor of each type must have; a `ray` or `gpu_lidar` may do without its `lidar_info`."""
+"""The field that says what a sensor of each type measures."""
+
+MAY_LACK_INFO = (SensorType.RAY, SensorType.GPU_LIDAR)
+"""Sensors of these types may do without their `lidar_info`, as in linkforge.core."""
 
 
 class ForceTorqueFrame(StrEnum):
@@ -328,8 +333,8 @@ class Sensor(Element):
         require_name(self.name, "sensor name", "SensorName")
         require_name(self.link_name, "link of a sensor", "LinkName", ("link",))
         check_numbers(self)
-        info = REQUIRED_INFO.get(self.type)
-        if info and getattr(self, info) is None:
+        info = INFO_FIELDS[self.type]
+        if getattr(self, info) is None and self.type not in MAY_LACK_INFO:
             raise RobotValidationError.invalid(
                 f"sensor '{self.name}' of type {self.type} requires {info}",
                 "SensorInfo",

@@ -155,6 +155,22 @@ NO_MESSAGES = Code(
     subject="sensor",
 )
 
+FOR_OTHER_PROGRAMS = Code(
+    "LF7413",
+    _W,
+    "MuJoCo does not read {parts}; that of '{name}' is left out",
+    subject="name",
+    grouped_by=("parts",),
+)
+NO_ACTUATOR = Code(
+    "LF7414", Severity.NOTE, "no joint of '{robot}' has an actuator in the MJCF: `ros2_control` commands none of them"
+)
+BASE_STAYS_FIXED = Code(
+    "LF7415",
+    Severity.NOTE,
+    "virtual joint '{joint}' is {type}, but the robot is fixed to the world in the MJCF; `--base free` lets it move",
+)
+
 # LF75xx: SDF
 NOT_IN_SDF = Code(
     "LF7501", _W, "SDF has no {parts}; that of '{name}' is left out", subject="name", grouped_by=("parts",)

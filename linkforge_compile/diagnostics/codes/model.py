@@ -203,6 +203,13 @@ ABSOLUTE_TOPIC = Code(
 UNPREFIXED_HARDWARE = Code(
     "LF5706", _W, "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}"
 )
+SCANNER_WITHOUT_RAYS = Code(
+    "LF5707",
+    _W,
+    "sensor '{name}' of type {type} has no rays and measures nothing; write `lidar: {{}}` for the defaults",
+    subject="name",
+    grouped_by=("type",),
+)
 UNPREFIXED_TOPICS = Code(
     "LF5754",
     _W,

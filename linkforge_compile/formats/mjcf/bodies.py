@@ -102,11 +102,21 @@ def geom_element(shape: Visual | Collision, meshes: MeshNames, mu: float | None)
     if form is None:
         return NOTHING
     if isinstance(shape, Collision):
-        friction = (mu, *_OTHER_FRICTION) if mu is not None else None
-        return leaf_at("geom", shape.source, **{"class": "collision"}, **form, **pose(shape.origin), friction=friction)
+        return leaf_at("geom", shape.source, **{"class": "collision"}, **form, **pose(shape.origin), **_friction(mu))
     color = shape.material.color if shape.material else None
     rgba = color.to_tuple() if color else None
     return leaf_at("geom", shape.source, **{"class": "visual"}, **form, **pose(shape.origin), rgba=rgba)
+
+
+def _friction(mu: float | None) -> dict[str, Spellable | None]:
+    """Return the friction of a geom.
+
+    Of two geoms in contact MuJoCo takes the greater friction, and that of its ground is 1, unless one has priority.
+    Without friction, a contact has one dimension, the normal.
+    """
+    if mu is None:
+        return {}
+    return {"friction": (mu, *_OTHER_FRICTION), "priority": 1, "condim": None if mu else 1}
 
 
 def _form(geometry: Geometry, meshes: MeshNames) -> dict[str, Spellable | None] | None:

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
+from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.diagnostics.codes.formats import (
+    BASE_STAYS_FIXED,
+    FOR_OTHER_PROGRAMS,
     IMPOSSIBLE_FOR_MUJOCO,
     MASSLESS_IN_MUJOCO,
     MESH_FOR_MUJOCO,
     NESTED_TOO_DEEP,
+    NO_ACTUATOR,
     NO_GAIN,
     NO_MESSAGES,
     NO_VELOCITY_LIMIT,
@@ -21,7 +26,7 @@ from linkforge_compile.diagnostics.codes.formats import (
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.limits import check_texts
 from linkforge_compile.formats.mjcf.actuators import GAINS, drives, has_gain
-from linkforge_compile.formats.mjcf.losses import lost_parts
+from linkforge_compile.formats.mjcf.losses import OF_OTHER_PROGRAMS, lost_parts
 from linkforge_compile.formats.mjcf.masses import accepted_inertia, massless_movers
 from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.names import check_names
@@ -53,6 +58,8 @@ def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     yield from check_inertials(robot)
     yield from check_meshes(robot)
     yield from check_actuators(robot)
+    if not is_free and not robot.has_link(WORLD):
+        yield from check_base(robot)
     for sensor in robot.sensors:
         if has_opposite_sign(sensor):
             yield OPPOSITE_SIGN.at(sensor.source, "force_torque", sensor=sensor.name)
@@ -90,11 +97,23 @@ def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
         if not has_gain(drive):
             yield NO_GAIN.at(where, "command_interfaces", joint=name, interface=interface, gain=GAINS[interface][0])
 
+    moving = [joint for joint in robot.joints if joint.type in SINGLE]
+    if moving and not any(drives(robot)):
+        yield NO_ACTUATOR.at(robot.source, "name", robot=robot.name)
+
+
+def check_base(robot: Robot) -> Iterator[Diagnostic]:
+    """A robot that moves in the world needs a free base."""
+    for joint in robot.semantic.virtual_joints if robot.has_semantic else ():
+        if joint.type != VirtualJointType.FIXED:
+            yield BASE_STAYS_FIXED.at(joint.source, "type", joint=joint.name, type=joint.type)
+
 
 def check_lost_parts(robot: Robot) -> Iterator[Diagnostic]:
     """Yield the parts of a robot for which MJCF has no element."""
     for loss in lost_parts(robot):
-        yield NOT_IN_MJCF.at(loss.source, *loss.path, parts=loss.parts, name=loss.name)
+        code = FOR_OTHER_PROGRAMS if loss.parts in OF_OTHER_PROGRAMS else NOT_IN_MJCF
+        yield code.at(loss.source, *loss.path, parts=loss.parts, name=loss.name)
 
 
 def check_velocities(robot: Robot) -> Iterator[Diagnostic]:
@@ -108,5 +127,6 @@ def check_velocities(robot: Robot) -> Iterator[Diagnostic]:
 def check_messages(robot: Robot) -> Iterator[Diagnostic]:
     """MuJoCo measures at every step, and sends no messages."""
     for sensor in robot.sensors:
-        if sensor_loss(sensor) is None:
+        is_usual = sensor.update_rate == DEFAULT_UPDATE_RATE and not sensor.topic and not sensor.frame
+        if sensor_loss(sensor) is None and not is_usual:
             yield NO_MESSAGES.at(sensor.source, sensor=sensor.name)

@@ -13,7 +13,7 @@ from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
-from linkforge_compile.formats.mjcf.sensors import sensor_losses
+from linkforge_compile.formats.mjcf.sensors import PLUGINS, sensor_losses
 from linkforge_compile.formats.parts import doubtful_parts_in
 from linkforge_compile.formats.single_axis import SINGLE, leader_of
 from linkforge_compile.source import SourceRef
@@ -21,6 +21,12 @@ from linkforge_compile.source import SourceRef
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+
+
+_GAZEBO, _TRANSMISSIONS, _GPIOS, _HARDWARE = "settings for Gazebo", "transmissions", "gpios", "sensors of hardware"
+
+OF_OTHER_PROGRAMS = (_GAZEBO, _TRANSMISSIONS, _GPIOS, _HARDWARE, PLUGINS)
+"""The kinds of parts that only other programs than MuJoCo read."""
 
 
 class Loss(NamedTuple):
@@ -38,9 +44,9 @@ def lost_parts(robot: Robot) -> Iterator[Loss]:
         for parts, path in sensor_losses(sensor):
             yield Loss(parts, sensor.name, sensor.source, path)
     for transmission in robot.transmissions:
-        yield Loss("transmissions", transmission.name, transmission.source)
-    for block in filter(_has_settings, robot.gazebo_elements):
-        yield Loss("settings for Gazebo", block.reference or robot.name, block.source)
+        yield Loss(_TRANSMISSIONS, transmission.name, transmission.source)
+    for block in robot.gazebo_elements:
+        yield from _of_gazebo(block, robot)
     for joint in robot.joints:
         yield from _of_joint(joint, robot)
     yield from _of_links(robot)
@@ -48,11 +54,20 @@ def lost_parts(robot: Robot) -> Iterator[Loss]:
     yield from _raw_xml(robot)
 
 
-def _has_settings(block: GazeboElement) -> bool:
-    """Whether a block has more than friction, and what keeps a fixed joint, as MJCF keeps them all."""
+def _of_gazebo(block: GazeboElement, robot: Robot) -> Iterator[Loss]:
+    """Yield a loss for what a block has besides friction, and what keeps a fixed joint, as MJCF keeps them all."""
     friction = ("mu1", "mu2") if block.properties.get("mu1") == block.properties.get("mu2") else ("mu1",)
-    others = block.properties.keys() - {*KEEP_FIXED_JOINT, *friction}
-    return bool(others) or replace(block, properties={}) != GazeboElement(block.reference)
+    lost = [tag for tag in block.properties if tag not in (*KEEP_FIXED_JOINT, *friction)]
+    if lost or replace(block, properties={}) != GazeboElement(block.reference):
+        yield Loss(_GAZEBO, block.reference or robot.name, block.source, _path(block, lost))
+
+
+def _path(block: GazeboElement, tags: Sequence[str]) -> Sequence[str]:
+    """Return where the first tag is: those that are keys of the language are in the block itself."""
+    if not tags:
+        return ()
+    is_own = block.source is not None and block.source.node.child(tags[0]) is not None
+    return (tags[0],) if is_own else ("properties", tags[0])
 
 
 def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
@@ -89,9 +104,9 @@ def _of_hardware(robot: Robot) -> Iterator[Loss]:
     driven = {drive.joint.name for drive in drives(robot)}
     for system in robot.ros2_controls:
         for pin in system.gpios:
-            yield Loss("gpios", pin.name, pin.source)
+            yield Loss(_GPIOS, pin.name, pin.source)
         for sensor in system.sensors:
-            yield Loss("sensors of hardware", sensor.name, sensor.source)
+            yield Loss(_HARDWARE, sensor.name, sensor.source)
         for hardware in system.joints:
             if not robot.has_joint(hardware.name):
                 continue

@@ -28,6 +28,8 @@ _CAMERAS = (SensorType.CAMERA, SensorType.DEPTH_CAMERA, SensorType.RGBD_CAMERA)
 
 _USUAL_CLIP = (DEFAULT_CAMERA_NEAR, DEFAULT_CAMERA_FAR)
 
+PLUGINS = "plugins of sensors"
+
 _WIDEST = 179.0
 """MuJoCo refuses a field of view of half a turn [deg]."""
 
@@ -47,7 +49,7 @@ def sensor_losses(sensor: Sensor) -> Iterator[tuple[str, tuple[str, ...]]]:
         yield loss, ("type",)
         return
     if sensor.plugin:
-        yield "plugins of sensors", ("plugin",)
+        yield PLUGINS, ("plugin",)
     camera, imu, wrench = sensor.camera_info, sensor.imu_info, sensor.force_torque_info
     if camera and camera.noise:
         yield "noise of cameras", ("camera", "noise")
