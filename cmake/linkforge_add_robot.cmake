@@ -195,6 +195,14 @@ macro(_linkforge_check_keywords)
       _linkforge_refuse("FORMATS takes ${names}, found '${format}'")
     endif()
   endforeach()
+  # Ninja reads a depfile only if its first output is that of the rule; linkforge writes them in its own order.
+  set(requested "${ROBOT_FORMATS}")
+  set(ROBOT_FORMATS)
+  foreach(format IN LISTS formats)
+    if(format IN_LIST requested)
+      list(APPEND ROBOT_FORMATS "${format}")
+    endif()
+  endforeach()
 endmacro()
 
 # The name of the outputs of a spec.

@@ -348,7 +348,8 @@ class Fleet:
             "cmake_minimum_required(VERSION 3.20)\nproject(fleet NONE)\n"
             f'find_package(linkforge_compile REQUIRED PATHS "{linkforge.folder / "cmake"}" NO_DEFAULT_PATH)\n'
             "file(GLOB specs CONFIGURE_DEPENDS *.robot.yaml)\n"
-            "linkforge_add_robots(${specs} TARGET fleet FORMATS urdf srdf INSTALL OUTPUT made)\n"
+            # The order of FORMATS is not that of linkforge, and has no effect on what is built again.
+            "linkforge_add_robots(${specs} TARGET fleet FORMATS srdf urdf INSTALL OUTPUT made)\n"
             'add_custom_command(OUTPUT joined COMMAND "${CMAKE_COMMAND}" -E echo joining COMMAND "${CMAKE_COMMAND}" '
             "-E touch joined DEPENDS ${made})\nadd_custom_target(join ALL DEPENDS joined)\n"
         )
