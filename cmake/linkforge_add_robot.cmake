@@ -3,6 +3,8 @@
 #   [VARIANT NAME]                # one of its variants; no text is no variant
 #   [PACKAGES NAME=FOLDER ...]    # where package://NAME/ is, before any other place
 #   [ALLOW_OUTSIDE]               # lets it read files outside its package, as --allow-outside does
+#   [STRICT]                      # fails if a format cannot hold a part of the robot, as --strict does
+#   [IGNORE CODES ...]            # warnings and notes that are not reported, as of --ignore
 #   [FORMATS urdf srdf ...]       # what to write, of what `linkforge formats` lists; urdf by default
 #   [GAZEBO gz|classic] [BASE fixed|free] ...   # the options of formats, as `linkforge formats` lists them
 #   [NAME NAME]                   # NAME.urdf and NAME.srdf in the build folder; by default the spec's name. Folders in
@@ -19,11 +21,11 @@ function(linkforge_add_robot spec)
   set(rename "call the files of this one by NAME")
   _linkforge_read_formats(formats format_options)
   cmake_parse_arguments(PARSE_ARGV 1 ROBOT
-    "INSTALL;ALLOW_OUTSIDE" "VARIANT;NAME;TARGET;OUTPUT;DESTINATION;${format_options}" "PARAMS;PACKAGES;FORMATS")
+    "INSTALL;ALLOW_OUTSIDE;STRICT" "VARIANT;NAME;TARGET;OUTPUT;DESTINATION;${format_options}" "PARAMS;PACKAGES;FORMATS;IGNORE")
   if(ROBOT_UNPARSED_ARGUMENTS)
     list(GET ROBOT_UNPARSED_ARGUMENTS 0 word)
     list(JOIN format_options ", " words)
-    set(words "PARAMS, VARIANT, PACKAGES, ALLOW_OUTSIDE, FORMATS, ${words}, NAME, TARGET, OUTPUT")
+    set(words "PARAMS, VARIANT, PACKAGES, ALLOW_OUTSIDE, STRICT, IGNORE, FORMATS, ${words}, NAME, TARGET, OUTPUT")
     _linkforge_refuse("it has no argument '${word}'; it takes ${words}, INSTALL and DESTINATION")
   endif()
   _linkforge_check_keywords()
@@ -49,7 +51,8 @@ endfunction()
 
 # linkforge_add_robots(SPEC ...
 #   TARGET TARGET                 # the target of all, which is part of `all`
-#   [PARAMS ...] [VARIANT NAME] [PACKAGES ...] [ALLOW_OUTSIDE] [FORMATS urdf srdf ...] [GAZEBO gz|classic] ...
+#   [PARAMS ...] [VARIANT NAME] [PACKAGES ...] [ALLOW_OUTSIDE] [STRICT] [IGNORE CODES ...]
+#   [FORMATS urdf srdf ...] [GAZEBO gz|classic] ...
 #   [OUTPUT VARIABLE] [INSTALL [DESTINATION DIR]])      # as above, for each of them
 #
 # Compiles several robots in one process, whenever any of them or of what they are made from changes. An output whose
@@ -58,7 +61,7 @@ function(linkforge_add_robots)
   set(call "linkforge_add_robots()")
   _linkforge_read_formats(formats format_options)
   cmake_parse_arguments(PARSE_ARGV 0 ROBOT
-    "INSTALL;ALLOW_OUTSIDE" "VARIANT;TARGET;OUTPUT;DESTINATION;${format_options}" "PARAMS;PACKAGES;FORMATS")
+    "INSTALL;ALLOW_OUTSIDE;STRICT" "VARIANT;TARGET;OUTPUT;DESTINATION;${format_options}" "PARAMS;PACKAGES;FORMATS;IGNORE")
   set(call "linkforge_add_robots(TARGET ${ROBOT_TARGET})")
   set(rename "add this one by linkforge_add_robot, with a NAME")
   _linkforge_check_keywords()
@@ -171,8 +174,8 @@ endfunction()
 
 # Check the keywords that both functions have; an empty value is none.
 macro(_linkforge_check_keywords)
-  # A variable behind PARAMS, VARIANT or PACKAGES may well be empty.
-  list(FILTER ROBOT_KEYWORDS_MISSING_VALUES EXCLUDE REGEX "^(PARAMS|VARIANT|PACKAGES)$")
+  # A variable behind one of these may well be empty.
+  list(FILTER ROBOT_KEYWORDS_MISSING_VALUES EXCLUDE REGEX "^(PARAMS|VARIANT|PACKAGES|IGNORE)$")
   if(ROBOT_KEYWORDS_MISSING_VALUES)
     _linkforge_refuse("no value comes after ${ROBOT_KEYWORDS_MISSING_VALUES}")
   endif()
@@ -193,6 +196,14 @@ macro(_linkforge_check_keywords)
   foreach(format IN LISTS ROBOT_FORMATS)
     if(NOT format IN_LIST formats)
       _linkforge_refuse("FORMATS takes ${names}, found '${format}'")
+    endif()
+  endforeach()
+  # Ninja reads a depfile only if its first output is that of the rule; linkforge writes them in its own order.
+  set(requested "${ROBOT_FORMATS}")
+  set(ROBOT_FORMATS)
+  foreach(format IN LISTS formats)
+    if(format IN_LIST requested)
+      list(APPEND ROBOT_FORMATS "${format}")
     endif()
   endforeach()
 endmacro()
@@ -271,6 +282,12 @@ function(_linkforge_options result)
   if(ROBOT_ALLOW_OUTSIDE)
     list(APPEND options --allow-outside)
   endif()
+  if(ROBOT_STRICT)
+    list(APPEND options --strict)
+  endif()
+  foreach(codes IN LISTS ROBOT_IGNORE)
+    list(APPEND options --ignore "${codes}")
+  endforeach()
   if(DEFINED ROBOT_VARIANT)
     list(APPEND options --variant "${ROBOT_VARIANT}")
   endif()

@@ -284,7 +284,7 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     echo.chmod(0o755)
     (tmp_path / "parts").mkdir()
     add = 'PARAMS "name:=two words; and more" "axes:=[1;2]" VARIANT sim GAZEBO classic NESTED yes'
-    add += " PACKAGES parts=parts INSTALL"
+    add += " PACKAGES parts=parts STRICT IGNORE LF5616 LF74,LF75 INSTALL"
     text = f"{FIND}\nlinkforge_add_robot(arm.robot.yaml {add} DESTINATION robots)"
     assert script(tmp_path, text, f"-DLINKFORGE_EXECUTABLE={echo}").returncode == 0
     build = subprocess.run(
@@ -293,6 +293,7 @@ def test_arguments_reach_the_command_unchanged(tmp_path: Path):
     lines = build.stdout.splitlines()
     assert lines[lines.index("-p") : lines.index("-o")] == [
         *("-p", "name:=two words; and more", "-p", "axes:=[1;2]", "--package", f"parts={tmp_path / 'parts'}"),
+        *("--strict", "--ignore", "LF5616", "--ignore", "LF74,LF75"),
         *("--variant", "sim", "--gazebo", "classic", "--nested"),
         *("--installed-in", f"urdf={tmp_path / 'robots'}"),
         *("--format", "urdf"),
@@ -348,7 +349,8 @@ class Fleet:
             "cmake_minimum_required(VERSION 3.20)\nproject(fleet NONE)\n"
             f'find_package(linkforge_compile REQUIRED PATHS "{linkforge.folder / "cmake"}" NO_DEFAULT_PATH)\n'
             "file(GLOB specs CONFIGURE_DEPENDS *.robot.yaml)\n"
-            "linkforge_add_robots(${specs} TARGET fleet FORMATS urdf srdf INSTALL OUTPUT made)\n"
+            # The order of FORMATS is not that of linkforge, and has no effect on what is built again.
+            "linkforge_add_robots(${specs} TARGET fleet FORMATS srdf urdf INSTALL OUTPUT made)\n"
             'add_custom_command(OUTPUT joined COMMAND "${CMAKE_COMMAND}" -E echo joining COMMAND "${CMAKE_COMMAND}" '
             "-E touch joined DEPENDS ${made})\nadd_custom_target(join ALL DEPENDS joined)\n"
         )
