@@ -102,11 +102,17 @@ def _interrupts_held() -> Iterator[None]:
     from multiprocessing import resource_tracker
 
     resource_tracker.ensure_running()  # its start, which is otherwise that of the first process, stops the holding
+    arrived: list[int] = []
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    # A thread of a library may get the signal, whose handler then runs in this one all the same.
+    handler = signal.signal(signal.SIGINT, lambda number, _: arrived.append(number))
     try:
         yield
     finally:
+        signal.signal(signal.SIGINT, handler)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    if arrived:
+        raise KeyboardInterrupt
 
 
 def _send_found(end: Connection, scene: Scene, search: Search, step: int) -> None:

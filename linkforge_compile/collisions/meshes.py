@@ -4,19 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.bounding import ScanBudget
 from linkforge_compile.checks.mesh_files import MeshFinder, scan_mesh
+from linkforge_compile.core.meshes import MeshError, MeshFault, triangles_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.collisions import UNKNOWN_SHAPE, UNREADABLE_SHAPE
 from linkforge_compile.roots import ANYWHERE, is_file
+from linkforge_compile.source.characters import UnreadableError
+from linkforge_compile.source.read_file import read_bytes
 
 if TYPE_CHECKING:
+    import numpy as np
     from coal import BVHModelBase
+    from numpy.typing import NDArray
+
+MAX_BYTES = 128 * 1024 * 1024
+"""The largest mesh that is read, as for inertias [bytes]."""
 
 _PACKAGE = "package://"
 
@@ -39,16 +47,34 @@ def find_meshes(robot: Robot, sink: Diagnostics) -> dict[str, Path]:
     return paths
 
 
-def load_mesh(path: Path, scale: Any) -> BVHModelBase:  # Any: coal takes an array of numpy
-    """Return the triangles of a mesh.
+def load_mesh(path: Path, scale: NDArray[np.float64]) -> BVHModelBase:
+    """Return the triangles of a mesh; no other file is opened, as the loader of coal would do for materials.
 
     Raises:
-        ValueError: The file cannot be read.
+        MeshError: The file holds no shape.
+        UnreadableError: The file cannot be read.
 
     """
     import coal
+    import numpy as np
 
-    return coal.MeshLoader(coal.BV_OBBRSS).load(str(path), scale)
+    corners = _triangles_in(path) * scale
+    vertices, places = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    model = coal.BVHModelOBBRSS()
+    model.beginModel(len(corners), len(vertices))
+    model.addVertices(vertices)
+    model.addTriangles(places.reshape(-1, 3))
+    model.endModel()
+    return model
+
+
+def _triangles_in(path: Path) -> NDArray[np.float64]:
+    """Return the corners of a mesh's triangles, as (triangles, 3, 3); otherwise as `load_mesh`."""
+    content = read_bytes(path, MAX_BYTES, only_regular=True)
+    triangles = triangles_in(content or b"", path.name)
+    if not len(triangles):
+        raise MeshError(MeshFault.EMPTY, "it has no triangles")
+    return triangles
 
 
 def _collision_meshes(robot: Robot) -> Iterator[Mesh]:
@@ -74,11 +100,8 @@ def _unknown(mesh: Mesh, path: Path | None, *, is_forbidden: bool) -> Diagnostic
 
 
 def _fault_in(path: Path) -> str | None:
-    import numpy as np
-
     try:
-        load_mesh(path, np.ones(3))
-    except (ValueError, RuntimeError) as error:
-        # coal names its own files and lines first.
-        return " ".join(str(error).rpartition("message:")[2].split())[:200]
+        _triangles_in(path)
+    except (MeshError, UnreadableError) as error:
+        return error.message if isinstance(error, MeshError) else str(error)
     return None

@@ -154,7 +154,7 @@ def test_relative_meshes_are_reported_where_a_format_has_them_at_its_own_folder(
     """LF7006: MoveIt's URDF is in `config`; MJCF and SDF may have the full paths of all files."""
     (pendulum / "package.xml").write_text("<package><name>rods</name></package>")
     for name in ("rod.stl", "hand.stl"):
-        (pendulum / name).write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
+        (pendulum / name).write_bytes(bytes(80) + (2).to_bytes(4, "little") + bytes(100))
     inertial = "inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}"
     spec = f"linkforge: 1\nname: rod\nlinks:\n  rod: {{visual: {{mesh: rod.stl}}, {inertial}}}\n"
     hand = f"  hand: {{visual: {{mesh: package://rods/hand.stl}}, {inertial}}}\n"

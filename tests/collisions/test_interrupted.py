@@ -57,8 +57,15 @@ def arm(tmp_path: Path) -> Path:
 @contextmanager
 def running(spec: Path) -> Iterator[subprocess.Popen[str]]:
     """Run the command, with two workers, in a group of its own as a terminal does; end what is left of it."""
-    words = [sys.executable, "-m", "linkforge_compile", "collisions", spec.name, "--samples", "9000000", "--jobs", "2"]
-    process = subprocess.Popen(words, cwd=spec.parent, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    # A shell has a job in the background, such as the tests themselves, ignore Ctrl-C.
+    words = ["env", "--default-signal=INT", sys.executable, "-m", "linkforge_compile", "collisions", spec.name]
+    process = subprocess.Popen(
+        [*words, "--samples", "9000000", "--jobs", "2"],
+        cwd=spec.parent,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
     try:
         yield process
     finally:

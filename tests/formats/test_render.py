@@ -62,4 +62,4 @@ def test_an_unknown_format_or_option_is_reported(name: str, options: dict[str, s
 def test_a_compile_reports_what_the_formats_it_is_for_lose():
     assert not compile_text(SPEC).diagnostics
     codes = {one.code.id for one in compile_text(SPEC, formats=["mjcf"]).diagnostics}
-    assert "LF7405" in codes
+    assert "LF7413" in codes

@@ -199,8 +199,8 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
 def _require_libraries() -> None:
     from importlib.util import find_spec
 
-    if missing := [name for name in ("pinocchio", "coal", "numpy") if find_spec(name) is None]:
-        what = f"needs Pinocchio and coal, and there is no Python package {' and '.join(missing)}"
+    if missing := [name for name in ("pinocchio", "coal", "numpy", "trimesh", "collada") if find_spec(name) is None]:
+        what = f"needs Pinocchio, coal and trimesh, and there is no Python package {' and '.join(missing)}"
         raise UsageError(f"{what}; run: pip install 'linkforge-compile[collisions]'")
 
 

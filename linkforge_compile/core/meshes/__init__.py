@@ -1,6 +1,6 @@
 """Meshes as solid bodies: triangles, read by trimesh or pycollada, and the solid that they bound.
 
-Read only where an inertia is to be computed from a mesh; needs the extra `mesh`.
+Read only where an inertia is to be computed from a mesh, or collisions are sampled; needs the extra `mesh`.
 
 COLLADA is not read by trimesh: of 263 files of real robots it gives the same triangles as pycollada for 183, others in
 the last digits or in another order for 79, none for one, and it has no limit on nodes.
@@ -27,7 +27,16 @@ if TYPE_CHECKING:
 
     Triangles: TypeAlias = NDArray[np.float64]  # shape (triangles, 3 corners, 3 coordinates)
 
-__all__ = ["MAX_NODES", "MAX_TRIANGLES", "MeshError", "MeshFault", "collada_triangles", "solid_in", "solids_of"]
+__all__ = [
+    "MAX_NODES",
+    "MAX_TRIANGLES",
+    "MeshError",
+    "MeshFault",
+    "collada_triangles",
+    "solid_in",
+    "solids_of",
+    "triangles_in",
+]
 
 MAX_TRIANGLES = 400_000
 """A mesh of this size takes less than ten seconds and 512 MB."""
@@ -39,6 +48,8 @@ MAX_NODES = 100_000
 _HEADER, _TRIANGLE = 84, 50
 
 _LFS_POINTER = b"version https://git-lfs"
+
+_NO_MEMORY = "it does not fit into memory"
 
 _FACE = re.compile(rb"^f((?:.*\\\r?\n)*.*)", re.MULTILINE)  # a backslash continues a line
 _CONTINUED = re.compile(rb"\\\r?\n")
@@ -100,6 +111,25 @@ def solid_in(content: bytes, name: str, *, times: int = 1) -> Solid:
         MeshError: The file cannot be read, or does not hold a solid. Nothing is repaired.
 
     """
+    try:
+        from linkforge_compile.core.meshes.closed import bounded_solid
+
+        return bounded_solid(triangles_in(content, name, times=times))
+    except ModuleNotFoundError as error:
+        raise _no_library(error) from error
+    except MemoryError as error:
+        raise MeshError(MeshFault.TOO_LARGE, _NO_MEMORY) from error
+
+
+def triangles_in(content: bytes, name: str, *, times: int = 1) -> Triangles:
+    """Return the corners of a mesh's triangles, as (triangles, 3, 3), in the frame of its file; see `solid_in`.
+
+    No other file is opened, whatever the mesh names.
+
+    Raises:
+        MeshError: The file cannot be read, or has more than `times` MAX_TRIANGLES.
+
+    """
     ending = name.lower().rpartition(".")[2]
     if ending not in _READERS:
         raise MeshError(MeshFault.NO_FORMAT, "its name must end in .stl, .obj or .dae")
@@ -108,15 +138,17 @@ def solid_in(content: bytes, name: str, *, times: int = 1) -> Solid:
     if content.startswith(_LFS_POINTER):
         raise MeshError(MeshFault.UNREADABLE, "it is a pointer of Git LFS; run 'git lfs pull'")
     try:
-        from linkforge_compile.core.meshes.closed import bounded_solid
-
         triangles = _read(content, ending, MAX_TRIANGLES * times)
-        _refuse_more(len(triangles), MAX_TRIANGLES * times)
-        return bounded_solid(triangles)
     except ModuleNotFoundError as error:
-        raise MeshError(MeshFault.NO_LIBRARY, (error.name or "trimesh").partition(".")[0]) from error
+        raise _no_library(error) from error
     except MemoryError as error:
-        raise MeshError(MeshFault.TOO_LARGE, "it does not fit into memory") from error
+        raise MeshError(MeshFault.TOO_LARGE, _NO_MEMORY) from error
+    _refuse_more(len(triangles), MAX_TRIANGLES * times)
+    return triangles
+
+
+def _no_library(error: ModuleNotFoundError) -> MeshError:
+    return MeshError(MeshFault.NO_LIBRARY, (error.name or "trimesh").partition(".")[0])
 
 
 def _read(content: bytes, ending: str, limit: int) -> Triangles:
