@@ -70,10 +70,14 @@ def load_mesh(path: Path, scale: NDArray[np.float64]) -> BVHModelBase:
 
 def _triangles_in(path: Path) -> NDArray[np.float64]:
     """Return the corners of a mesh's triangles, as (triangles, 3, 3); otherwise as `load_mesh`."""
+    import numpy as np
+
     content = read_bytes(path, MAX_BYTES, only_regular=True)
     triangles = triangles_in(content or b"", path.name)
     if not len(triangles):
         raise MeshError(MeshFault.EMPTY, "it has no triangles")
+    if not np.isfinite(triangles).all():
+        raise MeshError(MeshFault.UNREADABLE, "the coordinates of a vertex are not finite")
     return triangles
 
 

@@ -178,7 +178,8 @@ def test_enabled_pairs_are_not_disabled(tmp_path: Path):
 def test_samples_are_a_whole_number(word: str, arm: Path):
     done = linkforge("collisions", arm.name, "--samples", word, cwd=arm.parent)
     assert done.returncode == 2
-    assert f"takes a whole number above 0, found '{word}'" in done.stderr
+    assert "takes a whole number from 1 to " in done.stderr
+    assert f", found '{word}'" in done.stderr
 
 
 def test_a_seed_is_not_negative(arm: Path):
@@ -195,3 +196,11 @@ def test_missing_libraries_are_named_with_the_way_to_install_them(arm: Path, mon
     done = linkforge("collisions", arm.name, cwd=arm.parent)
     assert done.returncode == 2
     assert "there is no Python package coal; run: pip install 'linkforge-compile[collisions]'" in done.stderr
+
+
+@pytest.mark.parametrize("option", ["--samples", "--jobs"])
+@pytest.mark.parametrize("zeros", [12, 400, 5000])
+def test_a_count_has_a_bound(option: str, zeros: int, tmp_path: Path):
+    done = linkforge("collisions", "robot.robot.yaml", option, "1" + "0" * zeros, cwd=tmp_path)
+    assert done.returncode == 2
+    assert f"argument {option}: takes a whole number from 1 to " in done.stderr

@@ -38,3 +38,15 @@ def test_a_format_that_may_name_other_files_is_refused(tmp_path: Path):
     done = _sample("hand.gltf", tmp_path)
     assert done.returncode == 1
     assert "its name must end in .stl, .obj or .dae [LF7702]" in done.stderr
+
+
+def test_a_vertex_that_is_not_finite_is_refused(tmp_path: Path):
+    import numpy as np
+
+    triangles = np.zeros(4, dtype=[("numbers", "<f4", 12), ("attribute", "<u2")])
+    triangles["numbers"][:, 3:] = np.arange(36).reshape(4, 9)
+    triangles["numbers"][2, 5] = np.nan
+    (tmp_path / "hand.stl").write_bytes(bytes(80) + (4).to_bytes(4, "little") + triangles.tobytes())
+    done = _sample("hand.stl", tmp_path)
+    assert done.returncode == 1
+    assert "the coordinates of a vertex are not finite [LF7702]" in done.stderr

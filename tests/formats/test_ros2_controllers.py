@@ -414,6 +414,19 @@ def test_a_force_torque_sensor_may_have_the_names_of_its_interfaces_instead():
     assert reported(text) == []
 
 
+def test_a_list_that_ros_refuses_is_one_error():
+    type_ = "joint_trajectory_controller/JointTrajectoryController"
+    own = f"{{type: {type_}, group: arm, parameters: {{command_joints: [1, a]}}}}"
+    found = reported(f"{ROBOT}{ARM_GROUP}controllers: {{c: {own}, o: {{type: a/B}}}}\n")
+    assert [one[:6] for one in found] == ["LF7623"]
+
+
+def test_joints_in_parameters_are_commanded():
+    type_ = "position_controllers/JointGroupPositionController"
+    own = f"{{type: {type_}, parameters: {{joints: [shoulder, elbow, left, right]}}}}"
+    assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == []
+
+
 def test_a_broadcaster_commands_no_joint():
     states = "{type: joint_state_broadcaster/JointStateBroadcaster, joints: [shoulder, elbow, left, right]}"
     arm = "{type: position_controllers/JointGroupPositionController, joints: [shoulder, elbow]}"
@@ -509,8 +522,9 @@ def test_misspelled_classes_of_ros2_controllers_are_reported(type_: str, intende
     assert reported(f"{ROBOT}controllers: {{o: {{type: {type_}}}}}\n") == expected
 
 
-def test_a_robot_without_hardware_has_no_controllers():
-    diagnostic = ROS2_CONTROLLERS.missing(robot_of("links: {base: }"))
+@pytest.mark.parametrize("manager", ["", "controllers: {controller_manager: {parameters: {update_rate: 50}}}"])
+def test_a_robot_without_hardware_has_no_controllers(manager: str):
+    diagnostic = ROS2_CONTROLLERS.missing(robot_of(f"links: {{base: }}\n{manager}\n"))
     assert diagnostic is not None
     assert diagnostic.code.id == "LF7603"
 

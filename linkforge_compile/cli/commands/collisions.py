@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 MAX_SHOWN = 20
 """The most pairs that `--check` lists."""
 
+MAX_SAMPLES = 100_000_000
+"""More samples would take days."""
+
+MAX_JOBS = 256
+"""Each process has a copy of the robot in memory."""
+
 _EXAMPLES = """\
 The reasons are those of MoveIt's Setup Assistant: Adjacent, Default (in collision in the default pose), Always and
 Never. Pairs with other reasons, such as User, stay. A module that has pairs of its own is not sampled inside. It needs
@@ -52,11 +58,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml, or folders; - for standard input"
     )
     parser.add_argument(
-        "--samples", metavar="N", type=_count, default=10_000, help="how many random positions (default: 10000)"
+        "--samples", metavar="N", type=_samples, default=10_000, help="how many random positions (default: 10000)"
     )
     parser.add_argument("--seed", metavar="N", type=_seed, default=0, help="the seed of the positions (default: 0)")
     parser.add_argument(
-        "--jobs", metavar="N", type=_count, default=_processors(), help="how many processes (default: one a processor)"
+        "--jobs", metavar="N", type=_jobs, default=_processors(), help="how many processes (default: one a processor)"
     )
     parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
     output = parser.add_mutually_exclusive_group()
@@ -219,10 +225,19 @@ def _json(matrix: Matrix, arguments: argparse.Namespace) -> dict[str, object]:
     }
 
 
-def _count(text: str) -> int:
-    if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(f"takes a whole number above 0, found '{text}'")
-    return int(text)
+def _samples(text: str) -> int:
+    return _count(text, MAX_SAMPLES)
+
+
+def _jobs(text: str) -> int:
+    return _count(text, MAX_JOBS)
+
+
+def _count(text: str, most: int) -> int:
+    digits = text.lstrip("0")
+    if not text.isdecimal() or not digits or len(digits) > len(str(most)) or int(digits) > most:
+        raise argparse.ArgumentTypeError(f"takes a whole number from 1 to {most}, found '{text[:40]}'")
+    return int(digits)
 
 
 def _seed(text: str) -> int:
@@ -232,5 +247,6 @@ def _seed(text: str) -> int:
 
 
 def _processors() -> int:
-    """Return how many processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """Return how many processors this process may use, at most MAX_JOBS."""
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(usable, MAX_JOBS)

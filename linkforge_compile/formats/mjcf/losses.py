@@ -77,7 +77,7 @@ def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
         yield Loss("calibrations", joint.name, joint.source, ("calibration",))
     if joint.limits and (joint.limits.acceleration or joint.limits.deceleration or joint.limits.jerk):
         yield Loss("limits of acceleration and jerk", joint.name, joint.limits.source or joint.source)
-    if joint.mimic and leader_of(joint, robot) is None:
+    if joint.mimic and robot.has_joint(joint.mimic.joint) and leader_of(joint, robot) is None:
         yield Loss("mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source)
     if joint.type not in (*SINGLE, JointType.FIXED):
         if joint.limits:

@@ -32,7 +32,7 @@ from linkforge_compile.formats.ros2_controllers.kinds import (
     misspelled_class,
 )
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
-from linkforge_compile.formats.ros2_controllers.refused import check_refused
+from linkforge_compile.formats.ros2_controllers.refused import check_refused, has_one_type
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ _FIELDS = ("joints", "left_wheels", "right_wheels", "sensor", "frame", "command_
 
 def missing_hardware(robot: Robot) -> Diagnostic | None:
     """Return why a robot has no controllers; None if it has some."""
-    if robot.ros2_controls or robot.controllers:
+    if robot.ros2_controls or any(one.name != MANAGER for one in robot.controllers):
         return None
     return NO_HARDWARE.at(robot.source, "name", robot=robot.name)
 
@@ -65,7 +65,7 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
         yield from check_interfaces(robot, controller)
     has_states_alone = all(one.name == MANAGER for one in robot.controllers)
     commanding = [one for one in controllers if one.type != STATES]
-    used = {name for one in commanding for field in JOINT_FIELDS for name in getattr(one, field)}
+    used = {name for one in commanding for name in _joints(one)}
     is_known = has_states_alone or all(one.type in KINDS for one in controllers)
     for joint in hardware.values() if is_known and sound == list(controllers) and not faulty_groups(robot) else ():
         if joint.name not in used:
@@ -123,6 +123,8 @@ def _check_types(controller: Controller, declared_by: str, named: Iterable[str])
     declared = PARAMETERS.get(declared_by)
     misfits = find_misfits(controller.parameters, declared, named) if declared is not None else ()
     for path, expected, value, near in misfits:
+        if isinstance(value, list | tuple) and not has_one_type(value):
+            continue  # an error by itself
         *outer, name = path
         if expected is None:
             inside = f" in '{'.'.join(outer)}'" if outer else ""
@@ -135,9 +137,10 @@ def _check_types(controller: Controller, declared_by: str, named: Iterable[str])
 
 
 def _joints(controller: Controller) -> tuple[str, ...]:
-    """Return the joints of a controller, also those that are a parameter."""
+    """Return the joints of a controller, wheels and those that are a parameter as well."""
     stated = controller.parameters.get("joints")
-    return (*controller.joints, *map(str, stated if isinstance(stated, list | tuple) else ()))
+    fields = (name for field in JOINT_FIELDS for name in getattr(controller, field))
+    return (*fields, *map(str, stated if isinstance(stated, list | tuple) else ()))
 
 
 def _shown(value: object) -> str:

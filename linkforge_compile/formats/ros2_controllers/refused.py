@@ -65,12 +65,13 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
 def _check_lists(controller: Controller) -> Iterator[Diagnostic]:
     """A list has items of one type, and no lists or maps: the parser of rcl refuses the whole file."""
     for path, value in _values(typed_parameters(controller), ()):
-        if isinstance(value, list) and not _has_one_type(value):
+        if isinstance(value, list) and not has_one_type(value):
             place, name = ("parameters", *path), ".".join(path)
             yield LIST_OF_SEVERAL_TYPES.at(controller.source, *place, controller=controller.name, parameter=name)
 
 
-def _has_one_type(items: Sequence[object]) -> bool:
+def has_one_type(items: Sequence[object]) -> bool:
+    """Whether a list is one that ROS 2 has a type for."""
     integers = all(isinstance(item, int) and not isinstance(item, bool) for item in items)
     return integers or any(all(isinstance(item, type_) for item in items) for type_ in (str, bool, float))
 

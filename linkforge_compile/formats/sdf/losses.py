@@ -62,7 +62,7 @@ def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
         yield "safety controllers", joint.name, joint.source, ("safety_controller",)
     if joint.calibration:
         yield "calibrations", joint.name, joint.source, ("calibration",)
-    if joint.mimic and leader_of(joint, robot) is None:
+    if joint.mimic and robot.has_joint(joint.mimic.joint) and leader_of(joint, robot) is None:
         yield "mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source, ()
     if joint.type == JointType.FLOATING:
         yield from _of_floating(joint)
