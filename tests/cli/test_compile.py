@@ -515,6 +515,15 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
             ("compile", "swing.robot.yaml", "--gazebo", "gz", "--gazebo", "classic"),
             "argument --gazebo: may be given once, found 'gz' and 'classic'",
         ),
+        (
+            ("compile", "swing.robot.yaml", "-o", ".", "--base", "free"),
+            "--base is an option of mjcf, found urdf and srdf; add --format mjcf, or leave it out",
+        ),
+        (
+            ("compile", "swing.robot.yaml", "-o", "swing.sdf", "--gazebo", "classic"),
+            "--gazebo is an option of urdf or moveit, found sdf; add --format urdf, or leave it out",
+        ),
+        (("watch", "swing.robot.yaml", "-o", "a.mjcf", "--nested"), "--nested is an option of sdf, found mjcf"),
         (("check", "--format", "json", "--diagnostics", "json"), "may be given once"),
         (("schema", "-o", "a.json", "-o", "b.json"), "argument -o/--output: may be given once"),
         (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),

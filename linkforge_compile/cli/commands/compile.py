@@ -13,6 +13,7 @@ from linkforge_compile.cli.options import (
     add_spec_and_values,
     add_spec_options,
     packages_of,
+    refuse_options_of_other_formats,
     require_one_spec,
     split_assignments,
 )
@@ -170,6 +171,8 @@ def _parse_request(
 ) -> BuildRequest:
     templates = None if arguments.template is None else _template_folder(arguments)
     targets = _targets(_name(spec, variant, arguments), templates, arguments)
+    if not targets.are_documents:  # templates of documents see every format
+        refuse_options_of_other_formats(arguments, targets.formats)
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:
