@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import coal
+import networkx as nx
 import numpy as np
 import pinocchio as pin
 
@@ -29,6 +30,7 @@ class Collider:
 
     def __init__(self, scene: Scene, pairs: Iterable[Pair]) -> None:
         self._motions = [(place, body.motion) for place, body in enumerate(scene) if body.motion]
+        self._followers = _in_order_of_leaders(self._motions)
         self._model = pin.Model()
         self._exact, self._hulls = pin.GeometryModel(), pin.GeometryModel()
         shapes = list(self._add_bodies(scene))
@@ -86,10 +88,8 @@ class Collider:
     def _followed(self, positions: Sequence[float]) -> NDArray[np.float64]:
         """Return positions with those of bodies that follow others, which may follow others themselves."""
         at = {place: position for (place, _), position in zip(self._motions, positions, strict=True)}
-        followers = [(place, motion) for place, motion in self._motions if motion.leader is not None]
-        for _ in followers:
-            for place, motion in followers:
-                at[place] = motion.multiplier * at.get(motion.leader or 0, 0.0) + motion.offset
+        for place, motion in self._followers:
+            at[place] = motion.multiplier * at.get(motion.leader or 0, 0.0) + motion.offset
         return np.array(list(at.values()))
 
     def _switch(self, places: Iterable[int], *, is_on: bool) -> None:
@@ -121,6 +121,13 @@ class Collider:
             name, placement = f"{body.link}/{number}", frame * _se3(shape.pose)
             self._hulls.addGeometryObject(pin.GeometryObject(name, joint, placement, hull))
             yield self._exact.addGeometryObject(pin.GeometryObject(name, joint, placement, exact))
+
+
+def _in_order_of_leaders(motions: Iterable[tuple[int, Motion]]) -> list[tuple[int, Motion]]:
+    """Return the bodies that follow others, each after the one that it follows."""
+    followers = {place: motion for place, motion in motions if motion.leader is not None}
+    graph = nx.DiGraph((motion.leader, place) for place, motion in followers.items())
+    return [(place, followers[place]) for place in nx.topological_sort(graph) if place in followers]
 
 
 def _joint(motion: Motion) -> pin.JointModel:

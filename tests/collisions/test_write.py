@@ -164,6 +164,19 @@ def test_pairs_of_an_included_file_are_written_there(tmp_path: Path):
     assert (tmp_path / "pairs.yaml").read_text("utf-8") == part.replace("    base: {arm: Adjacent}\n", WANTED)
 
 
+@pytest.mark.parametrize("name", ["robot.robot.yaml", "pairs.yaml"])
+def test_a_file_that_would_not_declare_the_pairs_stays(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    section = "semantic:\n  disabled_collisions:\n    base: {arm: Adjacent}\n"
+    spec, part = (ROBOT, f"linkforge: 1\n{section}") if name == "pairs.yaml" else (ROBOT + section, "linkforge: 1\n")
+    (tmp_path / "pairs.yaml").write_text(part, "utf-8")
+    (tmp_path / "robot.robot.yaml").write_text(f"{spec}include: [pairs.yaml]\n", "utf-8")
+    before = (tmp_path / name).read_text("utf-8")
+    monkeypatch.setattr("linkforge_compile.collisions.rewrite.rewrite", lambda *_: before + "# Nothing else.\n")
+    done = linkforge("collisions", "robot.robot.yaml", "--write", cwd=tmp_path)
+    assert (done.returncode, (tmp_path / name).read_text("utf-8")) == (2, before)
+    assert "the section cannot be changed here" in done.stderr
+
+
 @pytest.mark.parametrize(
     ("section", "reason"),
     [

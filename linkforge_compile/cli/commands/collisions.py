@@ -7,7 +7,6 @@ import json
 import os
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
@@ -155,20 +154,22 @@ def _write(robot: Robot, matrix: Matrix, spec: str, settings: Settings, argument
     assert file.path
     if file.path.read_bytes() != file.text.encode():
         raise UsageError(f"'{file.shown}' has changed meanwhile, or is not in UTF-8")
-    if spec == file.name:
-        _require_result(text, Path(spec), settings, matrix)
-    print_status(
-        f"wrote {file.shown}" if write_if_changed(file.path, text) else f"{file.shown} is as before", arguments
-    )
+    is_written = write_if_changed(file.path, text)
+    try:
+        _require_result(spec, settings, matrix)
+    except BaseException:
+        write_if_changed(file.path, file.text)
+        raise
+    print_status(f"wrote {file.shown}" if is_written else f"{file.shown} is as before", arguments)
     return OK
 
 
-def _require_result(text: str, spec: Path, settings: Settings, matrix: Matrix) -> None:
-    """Refuse a text that does not declare the pairs of the matrix."""
+def _require_result(spec: str, settings: Settings, matrix: Matrix) -> None:
+    """Refuse a spec that does not declare the pairs of the matrix, with all that it includes."""
     from linkforge_compile.collisions.matrix import own_pairs
-    from linkforge_compile.pipeline import compile_source
+    from linkforge_compile.pipeline import compile_path
 
-    robot = compile_source(text, str(spec), spec.parent, settings).robot
+    robot = compile_path(spec, settings).robot
     if robot is None or own_pairs(robot) != matrix.disabled:
         raise UsageError("--write: the section cannot be changed here; paste what the command prints without --write")
 
