@@ -304,8 +304,10 @@ def test_a_file_that_is_not_found_is_reported_where_files_are_requested():
     )
     assert reported(text) == []
     assert reported(text, meshes="file") == [
-        "LF7508 mesh 'package://gone/base.stl' is not found on this machine, so its URI stays in the SDF",
-        "LF7508 texture 'package://gone/rust.png' is not found on this machine, so its URI stays in the SDF",
+        "LF7508 the URI of mesh 'package://gone/base.stl' stays in the SDF: package 'gone' is not found; "
+        "say where it is with `--package gone=FOLDER`",
+        "LF7508 the URI of texture 'package://gone/rust.png' stays in the SDF: package 'gone' is not found; "
+        "say where it is with `--package gone=FOLDER`",
     ]
     assert "<uri>model://gone/base.stl</uri>" in rendered(text, meshes="file")
 

@@ -209,9 +209,9 @@ FREE_IN_SDF = Code(
 STAYS_A_URI = Code(
     "LF7508",
     _W,
-    "{what} '{file}' is not found on this machine, so its URI stays in the SDF",
+    "the URI of {what} '{file}' stays in the SDF: {reason}",
     subject="file",
-    grouped_by=("what",),
+    grouped_by=("what", "reason"),
 )
 RENAMED_SHAPE_IN_SDF = Code(
     "LF7509",

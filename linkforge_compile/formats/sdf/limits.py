@@ -21,6 +21,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     WEIGHTLESS_IN_SDF,
 )
 from linkforge_compile.formats.limits import check_attributes, check_texts
+from linkforge_compile.formats.mesh_paths import reason_not_found
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.check_names import check_names, is_reserved
 from linkforge_compile.formats.sdf.layout import Layout
@@ -102,8 +103,10 @@ def check_files(robot: Robot) -> Iterator[Diagnostic]:
     uris = MeshUris(robot, is_resolved=True)
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
-            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource)
+            reason = reason_not_found(robot, mesh.resource)
+            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource, reason=reason)
     for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
         texture = material.texture if material else None
         if material and texture and "://" in texture and uris.file(texture) is None:
-            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture)
+            reason = reason_not_found(robot, texture)
+            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture, reason=reason)
