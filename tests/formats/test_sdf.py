@@ -312,6 +312,19 @@ def test_a_file_that_is_not_found_is_reported_where_files_are_requested():
     assert "<uri>model://gone/base.stl</uri>" in rendered(text, meshes="file")
 
 
+def test_a_plugin_of_gazebo_classic_is_reported():
+    text = (
+        "links: {base: {inertial: *unit}}\n"
+        "sensors: {imu: {type: imu, link: base, plugin: {name: imu, filename: libgazebo_ros_imu_sensor.so}}}\n"
+        "gazebo: {plugins: {control: {filename: libgazebo_ros_control.so}, own: {filename: libmine.so}, "
+        "'gz_ros2_control::GazeboSimROS2ControlPlugin': {filename: libgz_ros2_control-system.so}}}"
+    )
+    assert reported(text) == [
+        "LF7515 'libgazebo_ros_control.so' is a plugin of Gazebo Classic, which Gazebo Sim does not load; write one of "
+        "Gazebo Sim, such as gz_ros2_control-system; the same for 'libgazebo_ros_imu_sensor.so'"
+    ]
+
+
 def test_a_source_map_says_where_a_limit_was_written():
     text = TWO + (
         "joints:\n  turn:\n    type: revolute\n    parent: base\n    child: hand\n    axis: z\n"

@@ -242,6 +242,13 @@ MIMIC_OF_ENGINE = Code(
     "have gz_ros2_control move it",
     subject="joint",
 )
+CLASSIC_IN_SDF = Code(
+    "LF7515",
+    _W,
+    "'{file}' is a plugin of Gazebo Classic, which Gazebo Sim does not load; write one of Gazebo Sim, such as "
+    "gz_ros2_control-system",
+    subject="file",
+)
 
 # LF76xx: control and planning
 NO_LIMIT_FOR_MOVEIT = Code(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
+    CLASSIC_IN_SDF,
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
     MIMIC_OF_ENGINE,
@@ -53,6 +55,7 @@ def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> 
     yield from check_names(robot, layout)
     yield from check_bodies(robot, layout)
     yield from check_joints(robot, has_mimic=sdf_version(robot, choices) == WITH_MIMIC)
+    yield from check_plugins(robot)
     if choices.has_files:
         yield from check_files(robot)
     if choices.is_nested:
@@ -80,6 +83,18 @@ def check_joints(robot: Robot, *, has_mimic: bool) -> Iterator[Diagnostic]:
         if leader_of(joint, robot):
             code = MIMIC_OF_ENGINE if has_mimic else NO_MIMIC_IN_SDF
             yield code.at(joint.source, "mimic", joint=joint.name)
+
+
+def check_plugins(robot: Robot) -> Iterator[Diagnostic]:
+    """Gazebo Sim loads no plugin of Gazebo Classic, whose libraries have names of their own."""
+    of_robot = (plugin for block in robot.gazebo_elements if block.reference is None for plugin in block.plugins)
+    of_sensors = (sensor.plugin for sensor in robot.sensors if sensor.plugin)
+    for plugin in (*of_robot, *of_sensors):
+        if _CLASSIC_FILE.fullmatch(plugin.filename):
+            yield CLASSIC_IN_SDF.at(plugin.source, "filename", file=plugin.filename)
+
+
+_CLASSIC_FILE = re.compile(r"(?:.*/)?libgazebo_\w+\.so")
 
 
 def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
