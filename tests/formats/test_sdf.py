@@ -325,6 +325,23 @@ def test_a_plugin_of_gazebo_classic_is_reported():
     ]
 
 
+def test_raw_xml_of_a_urdf_is_reported_at_its_place():
+    text = TWO + (
+        "joints: {turn: {type: continuous, parent: base, child: hand, axis: z, "
+        "dynamics: {damping: 1, extra_attributes: {stiction: 2}}}}"
+    )
+    (found,) = SDF.limits(compiled(text), {})
+    assert (found.message, found.span and found.span.text) == (
+        "SDF has no raw XML of a URDF; that of 'turn' is left out",
+        "2",
+    )
+
+
+@pytest.mark.parametrize("raw", ["extra: <axis/>", "extra_attributes: {dont_collapse: true}"])
+def test_an_axis_or_lumping_of_a_fixed_joint_is_no_loss(raw: str):
+    assert reported(TWO + f"joints: {{weld: {{type: fixed, parent: base, child: hand, {raw}}}}}") == []
+
+
 def test_a_source_map_says_where_a_limit_was_written():
     text = TWO + (
         "joints:\n  turn:\n    type: revolute\n    parent: base\n    child: hand\n    axis: z\n"
