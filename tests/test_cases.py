@@ -79,6 +79,7 @@ WITHOUT_A_CASE = {
     "LF7512": "formats/test_sdf_nested.py",
     "LF7513": "formats/test_sdf.py",
     "LF7514": "formats/test_sdf.py",
+    "LF7515": "formats/test_sdf.py",
     "LF7601": "formats/test_joint_limits.py",
     "LF7602": "formats/test_joint_limits.py",
     "LF7603": "formats/test_ros2_controllers.py",

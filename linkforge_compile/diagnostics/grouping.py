@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
+from itertools import accumulate, islice
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note
 
 SHOWN = 8
 """How many names a message lists, and how many notes it has."""
+
+_WIDTH = 240
+"""How many characters the names in a message have, unless one alone has more."""
 
 _PLACES = 3
 """How many places of further parts a grouped diagnostic shows; its message has their names."""
@@ -56,6 +60,9 @@ def _place(one: Diagnostic, first: Diagnostic) -> Note:
 def join_names(names: Collection[str], count: int | None = None) -> str:
     """Return "'a', 'b' and 'c'", or the first few and how many more; `count` is that of all names."""
     quoted = [f"'{name}'" for name in islice(names, SHOWN)]
-    if (more := (count or len(names)) - SHOWN) > 0:
-        quoted[SHOWN - 1 :] = [f"{more + 1:,} more"]
+    ends = list(accumulate(map(len, quoted)))
+    total = count or len(names)
+    if total > SHOWN or (ends and ends[-1] > _WIDTH):
+        kept = max(1, min(SHOWN - 1, bisect_right(ends, _WIDTH)))
+        quoted[kept:] = [f"{total - kept:,} more"] if total > kept else []
     return " and ".join(filter(None, (", ".join(quoted[:-1]), quoted[-1])))

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
 
+_PACKAGE = "package://"
+
+
 class MeshPath(NamedTuple):
     """A mesh with the absolute path of its file, None for a file that is not found."""
 
@@ -38,6 +41,14 @@ def find_file(robot: Robot, resource: str) -> Path | None:
         return Path(os.path.normpath(robot.resource_resolver.resolve(resource, relative_to=folder)))
     except (OSError, ValueError):  # ValueError: a name that no file can have
         return None
+
+
+def reason_not_found(robot: Robot, resource: str) -> str:
+    """Return why a file that a robot refers to is not found, for a message."""
+    package = resource.removeprefix(_PACKAGE).partition("/")[0] if resource.startswith(_PACKAGE) else ""
+    if package and find_file(robot, f"{_PACKAGE}{package}") is None:
+        return f"package '{package}' is not found; say where it is with `--package {package}=FOLDER`"
+    return "the file is not found"
 
 
 def is_relative(resource: str) -> bool:

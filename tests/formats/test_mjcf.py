@@ -10,6 +10,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.core import Robot
+from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.formats import MJCF, Rendering
 from tests.conftest import ROOT
 from tests.consumers import mjcf_model
@@ -251,6 +252,18 @@ def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_
         "mesh 'no.stl' is left out of the MJCF: the file is not found",
     ]
     assert mjcf_model(robot).ngeom == 0
+
+
+def test_a_mesh_of_an_unknown_package_names_the_package(tmp_path: Path):
+    files = [f"package://unknown_description/meshes/visual/{number}.stl" for number in range(8)]
+    visuals = ", ".join(f"{{mesh: {{file: {file}}}}}" for file in files)
+    robot = compiled_in(tmp_path, f"links: {{base: {{visual: [{visuals}]}}}}")
+    (found,) = group_alike(MJCF.limits(robot, {}))
+    assert found.message == (
+        f"mesh '{files[0]}' is left out of the MJCF: package 'unknown_description' is not found; say where it is with "
+        f"`--package unknown_description=FOLDER`; the same for '{files[1]}', '{files[2]}', '{files[3]}', "
+        f"'{files[4]}' and 3 more"
+    )
 
 
 def test_a_mesh_of_one_triangle_is_left_out_as_mujoco_refuses_it(tmp_path: Path):

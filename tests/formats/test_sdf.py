@@ -304,10 +304,42 @@ def test_a_file_that_is_not_found_is_reported_where_files_are_requested():
     )
     assert reported(text) == []
     assert reported(text, meshes="file") == [
-        "LF7508 mesh 'package://gone/base.stl' is not found on this machine, so its URI stays in the SDF",
-        "LF7508 texture 'package://gone/rust.png' is not found on this machine, so its URI stays in the SDF",
+        "LF7508 the URI of mesh 'package://gone/base.stl' stays in the SDF: package 'gone' is not found; "
+        "say where it is with `--package gone=FOLDER`",
+        "LF7508 the URI of texture 'package://gone/rust.png' stays in the SDF: package 'gone' is not found; "
+        "say where it is with `--package gone=FOLDER`",
     ]
     assert "<uri>model://gone/base.stl</uri>" in rendered(text, meshes="file")
+
+
+def test_a_plugin_of_gazebo_classic_is_reported():
+    text = (
+        "links: {base: {inertial: *unit}}\n"
+        "sensors: {imu: {type: imu, link: base, plugin: {name: imu, filename: libgazebo_ros_imu_sensor.so}}}\n"
+        "gazebo: {plugins: {control: {filename: libgazebo_ros_control.so}, own: {filename: libmine.so}, "
+        "'gz_ros2_control::GazeboSimROS2ControlPlugin': {filename: libgz_ros2_control-system.so}}}"
+    )
+    assert reported(text) == [
+        "LF7515 'libgazebo_ros_control.so' is a plugin of Gazebo Classic, which Gazebo Sim does not load; write one of "
+        "Gazebo Sim, such as gz_ros2_control-system; the same for 'libgazebo_ros_imu_sensor.so'"
+    ]
+
+
+def test_raw_xml_of_a_urdf_is_reported_at_its_place():
+    text = TWO + (
+        "joints: {turn: {type: continuous, parent: base, child: hand, axis: z, "
+        "dynamics: {damping: 1, extra_attributes: {stiction: 2}}}}"
+    )
+    (found,) = SDF.limits(compiled(text), {})
+    assert (found.message, found.span and found.span.text) == (
+        "SDF has no raw XML of a URDF; that of 'turn' is left out",
+        "2",
+    )
+
+
+@pytest.mark.parametrize("raw", ["extra: <axis/>", "extra_attributes: {dont_collapse: true}"])
+def test_an_axis_or_lumping_of_a_fixed_joint_is_no_loss(raw: str):
+    assert reported(TWO + f"joints: {{weld: {{type: fixed, parent: base, child: hand, {raw}}}}}") == []
 
 
 def test_a_source_map_says_where_a_limit_was_written():

@@ -209,9 +209,9 @@ FREE_IN_SDF = Code(
 STAYS_A_URI = Code(
     "LF7508",
     _W,
-    "{what} '{file}' is not found on this machine, so its URI stays in the SDF",
+    "the URI of {what} '{file}' stays in the SDF: {reason}",
     subject="file",
-    grouped_by=("what",),
+    grouped_by=("what", "reason"),
 )
 RENAMED_SHAPE_IN_SDF = Code(
     "LF7509",
@@ -241,6 +241,13 @@ MIMIC_OF_ENGINE = Code(
     "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves by itself; choose bullet-featherstone, or "
     "have gz_ros2_control move it",
     subject="joint",
+)
+CLASSIC_IN_SDF = Code(
+    "LF7515",
+    _W,
+    "'{file}' is a plugin of Gazebo Classic, which Gazebo Sim does not load; write one of Gazebo Sim, such as "
+    "gz_ros2_control-system",
+    subject="file",
 )
 
 # LF76xx: control and planning

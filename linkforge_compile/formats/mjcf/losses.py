@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
-from linkforge_compile.core.part import attribute_pairs
-from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
+from linkforge_compile.formats.lost_xml import lost_xml
 from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
 from linkforge_compile.formats.mjcf.sensors import PLUGINS, sensor_losses
@@ -132,31 +131,9 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
     yield Loss(what, joint.name, hardware.source, ("command_interfaces",))
 
 
-_WITHOUT_LOSS = ("xmlns", "quat_xyzw")
-"""Raw attributes that MJCF does not need: namespaces, and a turn that `rpy` has as well."""
-
-_RAW = "raw XML of a URDF"
-
-
 def _raw_xml(robot: Robot) -> Iterator[Loss]:
     """Yield raw XML and attributes, but for those of parts that are left out as a whole."""
     kept = doubtful_parts_in(tuple(robot.materials.values()), robot.links, robot.joints, robot.ros2_controls)
     semantic = doubtful_parts_in(robot.semantic if robot.has_semantic else ())
-    yield from _lost_texts(robot, robot.name, robot.source)
-    for held in (*kept.with_extras, *semantic.with_extras):
-        if any(isinstance(part, Joint) and part.type == JointType.FIXED for part in (held.part, *held.around)):
-            continue  # an axis or a limit, which does nothing in a fixed joint
-        names = (getattr(part, "name", None) for part in (held.part, *reversed(held.around)))
-        yield from _lost_texts(held.part, next(filter(None, names), robot.name), held.where)
-
-
-def _lost_texts(part: Extended, name: str, where: SourceRef | None) -> Iterator[Loss]:
-    """Yield the first raw XML or attribute of a part; `inside` has further ones."""
-    for _, place, keys in raw_texts(part, where):
-        yield Loss(_RAW, name, place, keys)
-        return
-    for attribute, _ in attribute_pairs(part.extra_attributes):
-        if not attribute.startswith(_WITHOUT_LOSS):
-            source, *path = place_of_attribute(attribute, where)
-            yield Loss(_RAW, name, source, (*path, attribute))
-            return
+    for name, source, path in lost_xml(robot, (*kept.with_extras, *semantic.with_extras)):
+        yield Loss("raw XML of a URDF", name, source, path)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.formats.element import leaf_at
-from linkforge_compile.formats.mesh_paths import is_relative, mesh_paths
+from linkforge_compile.formats.mesh_paths import is_relative, mesh_paths, reason_not_found
 from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import Xml
 
@@ -48,15 +48,15 @@ class MeshAssets(NamedTuple):
 def mesh_files(robot: Robot) -> Iterator[MeshFile]:
     """Yield each mesh of a robot once."""
     for mesh, path in mesh_paths(robot):
-        yield MeshFile(mesh, path, _fault(mesh, path))
+        yield MeshFile(mesh, path, _fault(robot, mesh, path))
 
 
-def _fault(mesh: Mesh, path: Path | None) -> str | None:
+def _fault(robot: Robot, mesh: Mesh, path: Path | None) -> str | None:
     ending = Path(mesh.resource).suffix.lower()
     if ending not in _ENDINGS:
         return f"MuJoCo reads STL, OBJ and MSH; {_CONVERT}"
     if path is None:
-        return "the file is not found"
+        return reason_not_found(robot, mesh.resource)
     # The size alone shows a binary STL; no file of a stranger's spec is opened.
     triangles, rest = divmod(path.stat().st_size - _STL_HEADER, _STL_TRIANGLE)
     if ending == ".stl" and not rest and triangles == 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
+    CLASSIC_IN_SDF,
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
     MIMIC_OF_ENGINE,
@@ -21,6 +23,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     WEIGHTLESS_IN_SDF,
 )
 from linkforge_compile.formats.limits import check_attributes, check_texts
+from linkforge_compile.formats.mesh_paths import reason_not_found
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.check_names import check_names, is_reserved
 from linkforge_compile.formats.sdf.layout import Layout
@@ -52,6 +55,7 @@ def sdf_limits(robot: Robot, choices: SdfChoices, render: Callable[[], str]) -> 
     yield from check_names(robot, layout)
     yield from check_bodies(robot, layout)
     yield from check_joints(robot, has_mimic=sdf_version(robot, choices) == WITH_MIMIC)
+    yield from check_plugins(robot)
     if choices.has_files:
         yield from check_files(robot)
     if choices.is_nested:
@@ -81,6 +85,18 @@ def check_joints(robot: Robot, *, has_mimic: bool) -> Iterator[Diagnostic]:
             yield code.at(joint.source, "mimic", joint=joint.name)
 
 
+def check_plugins(robot: Robot) -> Iterator[Diagnostic]:
+    """Gazebo Sim loads no plugin of Gazebo Classic, whose libraries have names of their own."""
+    of_robot = (plugin for block in robot.gazebo_elements if block.reference is None for plugin in block.plugins)
+    of_sensors = (sensor.plugin for sensor in robot.sensors if sensor.plugin)
+    for plugin in (*of_robot, *of_sensors):
+        if _CLASSIC_FILE.fullmatch(plugin.filename):
+            yield CLASSIC_IN_SDF.at(plugin.source, "filename", file=plugin.filename)
+
+
+_CLASSIC_FILE = re.compile(r"(?:.*/)?libgazebo_\w+\.so")
+
+
 def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
     """A module has a name that SDF keeps for nothing else, and gz_ros2_control looks into the outermost model alone."""
     models = Models(layout, is_nested=True)
@@ -102,8 +118,10 @@ def check_files(robot: Robot) -> Iterator[Diagnostic]:
     uris = MeshUris(robot, is_resolved=True)
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
-            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource)
+            reason = reason_not_found(robot, mesh.resource)
+            yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource, reason=reason)
     for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
         texture = material.texture if material else None
         if material and texture and "://" in texture and uris.file(texture) is None:
-            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture)
+            reason = reason_not_found(robot, texture)
+            yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture, reason=reason)

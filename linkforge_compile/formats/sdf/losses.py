@@ -6,11 +6,11 @@ from collections.abc import Iterator, Set
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
-from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.formats.lost_xml import lost_xml
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.settings import (
@@ -116,14 +116,13 @@ def _held_settings(reference: str | None, robot: Robot, layout: Layout) -> tuple
 
 
 def _lost_xml(robot: Robot) -> Iterator[Loss]:
-    if robot.extra_elements:
-        yield "raw XML of a URDF", robot.name, robot.source, ("extra",)
-    for held in doubtful_parts_of_urdf(robot).with_extras:
-        around = (*held.around, held.part)
-        if isinstance(held.part, Transform) or any(isinstance(part, _NOT_RAW_URDF) for part in around):
-            continue
-        owner = next((part for part in around if getattr(part, "name", None)), None)
-        yield "raw XML of a URDF", getattr(owner, "name", robot.name), held.where, ()
+    parts = (
+        held
+        for held in doubtful_parts_of_urdf(robot).with_extras
+        if not any(isinstance(part, _NOT_RAW_URDF) for part in (*held.around, held.part))
+    )
+    for name, source, path in lost_xml(robot, parts):
+        yield "raw XML of a URDF", name, source, tuple(path)
 
 
 _NOT_RAW_URDF = (Sensor, GazeboElement, Ros2Control, Transmission)
