@@ -26,7 +26,7 @@ from linkforge_compile.gc_paused import gc_paused
 from linkforge_compile.limits import Budget
 from linkforge_compile.load import ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.lower import MeshSolids, lower
-from linkforge_compile.roots import ANYWHERE, Roots
+from linkforge_compile.roots import ANYWHERE, Roots, exists
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
@@ -292,7 +292,16 @@ def _compile_read(read: _Read, place: Path | None, settings: Settings) -> Compil
         from linkforge_compile.diagnostics.reports import apply_suppressions
 
         report = apply_suppressions(report, suppressions, is_whole=robot is not None and has_urdf)
-    return Compilation(robot, group_alike(report), (*loader.files, *meshes.files), (*loader.unread, *meshes.unread))
+    sought = _sought_files(robot, settings) if robot is not None else ()
+    files = dict.fromkeys((*loader.files, *meshes.files, *filter(exists, sought)))
+    unread = dict.fromkeys((*loader.unread, *meshes.unread, *(path for path in sought if not exists(path))))
+    return Compilation(robot, group_alike(report), tuple(files), tuple(unread))
+
+
+def _sought_files(robot: Robot, settings: Settings) -> tuple[Path, ...]:
+    """Return the files on which the documents of the requested formats depend besides the spec."""
+    formats = formats_or_default(settings.formats)
+    return tuple(path for one in formats for path in one.sought_files(robot, settings.options))
 
 
 def robot_of(spec: SpecFile, settings: Settings, loader: Loader, meshes: MeshSolids, sink: Diagnostics) -> Robot | None:

@@ -11,9 +11,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO, NoReturn
 
+from linkforge_compile import formats
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.enumerations import alternatives
-from linkforge_compile.formats import FORMATS, declared_options
+from linkforge_compile.formats import declared_options
 from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_factor
 from linkforge_compile.source.characters import on_one_line
 
@@ -105,14 +106,14 @@ def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
     return {option.name: getattr(arguments, option.name, option.default) for option in declared_options()}
 
 
-def refuse_options_of_other_formats(arguments: argparse.Namespace, formats: Sequence[str]) -> None:
+def refuse_options_of_other_formats(arguments: argparse.Namespace, requested: Sequence[str]) -> None:
     """Refuse an option that has no effect, because none of the requested formats has it."""
     values = format_options_of(arguments)
     for option in declared_options():
-        owners = [one.name for one in FORMATS if option in one.options]
-        if values[option.name] != option.default and not set(owners).intersection(formats):
+        owners = [one.name for one in formats.FORMATS if option in one.options]
+        if values[option.name] != option.default and not set(owners).intersection(requested):
             raise UsageError(
-                f"--{option.name} is an option of {alternatives(owners)}, found {alternatives(formats, 'and')}; "
+                f"--{option.name} is an option of {alternatives(owners)}, found {alternatives(requested, 'and')}; "
                 f"add --format {owners[0]}, or leave it out"
             )
 

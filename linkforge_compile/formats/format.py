@@ -144,6 +144,13 @@ class Format(ABC):
         """Return why the format has nothing to write for a robot; None if it has something."""
         return None
 
+    def sought_files(self, robot: Robot, options: Options) -> tuple[Path, ...]:
+        """Return the files that documents of this format depend on: whether they exist, and where.
+
+        Meshes are none of URDF, which refers to them as the spec does.
+        """
+        return ()
+
     def view(self, robot: Robot, options: Options) -> object:
         """Return what a user's templates see of a robot under the name of the format; None for nothing."""
         return None

@@ -31,6 +31,18 @@ def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
             yield MeshPath(mesh, find_file(robot, mesh.resource))
 
 
+def mesh_files_of(robot: Robot) -> tuple[Path, ...]:
+    """Return the absolute paths of all meshes that are found, and of relative ones where they would be."""
+    found = dict.fromkeys(path or _place_of(robot, mesh.resource) for mesh, path in mesh_paths(robot))
+    return tuple(path for path in found if path)
+
+
+def _place_of(robot: Robot, resource: str) -> Path | None:
+    """Return where a relative path of a mesh leads; None for a file of a package, which may be in many places."""
+    spec = robot.source.span.file.path if robot.source else None
+    return Path(os.path.abspath(spec.parent / resource)) if spec and is_relative(resource) else None  # noqa: PTH100
+
+
 def find_file(robot: Robot, resource: str) -> Path | None:
     """Return the absolute path of a file that a robot refers to, such as a texture; None for one that is not found."""
     spec = robot.source.span.file.path if robot.source else None

@@ -290,6 +290,28 @@ def test_standard_output_gets_nothing_of_an_output_that_is_not_written(cell: Pat
     assert (captured.out, "'table.yaml' is not a folder" in captured.err) == ("", True)
 
 
+@pytest.mark.parametrize(
+    ("words", "is_listed"),
+    [(("--for", "mjcf"), True), (("--for", "sdf"), False), (("--for", "urdf"), False), (("-o", "a.mjcf"), True)],
+)
+def test_an_mjcf_depends_on_its_meshes(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+    is_listed: bool,
+):
+    """It leaves out those that are missing."""
+    monkeypatch.chdir(tmp_path)
+    shapes = "{visual: {mesh: here.stl}, collision: {mesh: gone.stl}}"
+    (tmp_path / "arm.robot.yaml").write_text(f"linkforge: 1\nname: arm\nlinks: {{base: {shapes}}}\n")
+    (tmp_path / "here.stl").write_bytes(bytes(80) + (2).to_bytes(4, "little") + bytes(100))
+    assert main(["deps", "arm.robot.yaml", "--format", "json", *words]) == 0
+    found = json.loads(capfd.readouterr().out)
+    assert (str(tmp_path / "here.stl") in found["files"]) == is_listed
+    assert (str(tmp_path / "gone.stl") in found["unread"]) == is_listed
+
+
 def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
     assert main(["compile", "cell.robot.yaml", "-o", "new/sub/", "--depfile", "table.yaml/cell.d"]) == 2
     assert not (cell / "new").exists()

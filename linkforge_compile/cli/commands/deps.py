@@ -64,9 +64,9 @@ def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     refuse_formats_as_specs(specs, "--for")
     spec = require_one_spec(specs)
-    compilation = compile_spec(spec, assignments, arguments)
-    is_faulty = report(compilation.diagnostics, arguments)
     targets = _targets(spec, arguments.outputs, arguments.formats)
+    compilation = compile_spec(spec, assignments, arguments, formats=targets.formats)
+    is_faulty = report(compilation.diagnostics, arguments)
     if arguments.format == "json":
         write_to_stdout(_json_text(compilation, targets))
     elif not is_faulty:

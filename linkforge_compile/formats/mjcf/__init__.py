@@ -8,6 +8,7 @@ from linkforge_compile.formats.format import Option, TemplateFormat
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
@@ -46,6 +47,11 @@ class Mjcf(TemplateFormat):
         from linkforge_compile.formats.mjcf.meshes import mesh_assets
 
         return mesh_assets(robot).folder is None
+
+    def sought_files(self, robot: Robot, options: Options) -> tuple[Path, ...]:
+        from linkforge_compile.formats.mesh_paths import mesh_files_of
+
+        return mesh_files_of(robot)
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.mjcf.view import robot_view

@@ -8,6 +8,7 @@ from linkforge_compile.formats.format import NO_YES, Option, Rendering, Template
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
@@ -44,7 +45,10 @@ class Sdf(TemplateFormat):
     share_folder = "sdf"
     description = "the robot for Gazebo Sim"
     keeps = "links, joints, inertials, shapes, materials, contact settings, sensors and plugins, with all their frames"
-    loses = "planar joints, safety controllers, transmissions, and raw XML of a URDF"
+    loses = (
+        "planar joints, safety controllers, calibrations, limits of acceleration and jerk, transmissions, materials of "
+        "Gazebo Classic, plugins of links and joints, and raw XML of a URDF"
+    )
     has_relative_paths = True
     options = (VERSION, MESHES, NESTED)
 
@@ -64,6 +68,11 @@ class Sdf(TemplateFormat):
 
     def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
         return MESHES.value(options) != "file"
+
+    def sought_files(self, robot: Robot, options: Options) -> tuple[Path, ...]:
+        from linkforge_compile.formats.mesh_paths import mesh_files_of
+
+        return mesh_files_of(robot) if MESHES.value(options) == "file" else ()
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.sdf.view import robot_view
