@@ -7,14 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.formats.lost_xml import lost_xml
 from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
 from linkforge_compile.formats.mjcf.sensors import PLUGINS, sensor_losses
 from linkforge_compile.formats.parts import doubtful_parts_in
-from linkforge_compile.formats.single_axis import SINGLE, leader_of
+from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
         yield Loss("limits of acceleration and jerk", joint.name, joint.limits.source or joint.source)
     if joint.mimic and robot.has_joint(joint.mimic.joint) and leader_of(joint, robot) is None:
         yield Loss("mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source)
-    if joint.type not in (*SINGLE, JointType.FIXED):
+    if joint.type not in (*SINGLE_AXIS, JointType.FIXED):
         if joint.limits:
             yield Loss(f"limits of {joint.type} joints", joint.name, joint.limits.source or joint.source)
         if joint.dynamics and (joint.dynamics.damping or joint.dynamics.friction):
@@ -113,7 +113,7 @@ def _of_hardware(robot: Robot) -> Iterator[Loss]:
             if joint.name not in driven:
                 yield from _undriven(hardware, joint)
             for state in map(Interface.of, hardware.state_interfaces):
-                is_kept = state == "position" and joint.type in SINGLE
+                is_kept = state == "position" and joint.type in SINGLE_AXIS
                 if number_of(state.parameters.get(INITIAL_VALUE)) and not is_kept:
                     yield Loss(f"initial {state}", hardware.name, state.source or hardware.source)
 
@@ -122,7 +122,7 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
     names = [str(Interface.of(name)) for name in hardware.command_interfaces]
     if not names:
         return
-    if joint.type not in SINGLE:
+    if joint.type not in SINGLE_AXIS:
         what = f"actuators of {joint.type} joints"
     elif joint.mimic and any(name in INTERFACES for name in names):
         what = "actuators of joints that mimic others"
