@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 FORMATS = ("make", "json")
 
 _EXAMPLES = """\
-It lists the spec, the files that it includes and uses, files of values, xacro files, and meshes from which an inertia
-is computed; and linkforge's own templates of the format, and its version. The format is URDF, unless -o or --for name
+It lists the spec, the files that it includes and uses, files of values, xacro files, meshes from which an inertia is
+computed, and the meshes of an MJCF; and linkforge's own templates of the format, and its version. The format is URDF, unless -o or --for name
 other files.
 
 examples:
