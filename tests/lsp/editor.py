@@ -1,6 +1,7 @@
 """An editor for tests: the real server in a process of its own, driven over stdio by pygls's client."""
 
 import asyncio
+import re
 import sys
 import threading
 from collections.abc import Awaitable, Callable, Coroutine
@@ -122,6 +123,12 @@ class Editor:
         with self._news:
             assert self._news.wait_for(is_current, TIMEOUT), f"no diagnostics of {path}"
             return list(self._published[uri].diagnostics)
+
+    def memory(self) -> float:
+        """Return the memory that the server uses [MB]."""
+        assert self._client._server is not None
+        status = Path(f"/proc/{self._client._server.pid}/status").read_text("ascii")
+        return int(re.findall(r"VmRSS:\s*(\d+)", status)[0]) / 1024
 
     def published(self, path: Path, until: Callable[[list[types.Diagnostic]], bool]) -> list[types.Diagnostic]:
         """Return the diagnostics of a file that need not be open, once they fulfil a condition."""
