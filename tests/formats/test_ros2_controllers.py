@@ -81,6 +81,8 @@ ros2_control:
 """
 ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+POSITIONS = "position_controllers/JointGroupPositionController"
+FORWARD = "forward_command_controller/ForwardCommandController"
 
 
 def robot_of(text: str):
@@ -421,10 +423,6 @@ def test_a_list_that_ros_refuses_is_one_error():
     assert [one[:6] for one in found] == ["LF7623"]
 
 
-POSITIONS = "position_controllers/JointGroupPositionController"
-FORWARD = "forward_command_controller/ForwardCommandController"
-
-
 @pytest.mark.parametrize(
     ("in_parameters", "in_fields"),
     [
@@ -565,6 +563,26 @@ def test_joints_that_nothing_moves_without_gains_are_reported():
     ]
     assert reported(f"{start}{{gains.left.p: 1.0, gains: {{right: {{ff_velocity_scale: 1}}}}}}}}}}\n") == []
     assert reported(f"{start}{{open_loop_control: true}}}}}}\n") == []
+
+
+@pytest.mark.parametrize(
+    ("controller", "codes"),
+    [
+        (f"type: {TRAJECTORY}, parameters: {{joints: shoulder}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, 1]}}", ["LF7623"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, elbo]}}", ["LF4103"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder], command_interfaces: position}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, joints: [$(joint('elbow'))]", ["LF3091"]),
+        (f"type: {TRAJECTORY}, group: arm, left_wheels: [left]", ["LF7605"]),
+        (f"type: {FORWARD}, group: arm, command_interfaces: [position, effort]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, left]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbo]", ["LF4103"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbow]", ["LF4160"]),
+    ],
+)
+def test_a_fault_of_a_controller_is_reported_once(controller: str, codes: list[str]):
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}controllers: {{o: {{type: a/B}}, c: {{{controller}}}}}\n"
+    assert [one.code.id for one in compile_text(text, formats=("ros2_controllers",)).diagnostics] == codes
 
 
 @pytest.mark.parametrize(
