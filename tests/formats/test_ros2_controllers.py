@@ -705,6 +705,17 @@ def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
     assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
 
 
+def test_derived_values_lead_to_what_they_follow_from():
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}"
+    document = ROS2_CONTROLLERS.render(compile_text(text).result(), Rendering(has_map=True))[0]
+    assert document.map is not None
+    places = {line.strip(): document.map.at(at) for at, line in enumerate(document.text.splitlines(), start=1)}
+    found = {line: place.span.text for line, place in places.items() if place}
+    assert found["joints: [shoulder, elbow]"] == "arm"
+    assert found["command_interfaces: [position]"] == "[velocity, position]"
+    assert found["state_interfaces: [position, velocity]"] == "[velocity, position, effort]"
+
+
 def test_parameters_of_merged_managers_lead_to_the_files_of_their_modules(tmp_path: Path):
     other = ARM_WITH_MANAGER.replace("update_rate: 500", "handle_exceptions: true")
     robot = compile_file(two_arms(tmp_path, of_right=other)).result()
