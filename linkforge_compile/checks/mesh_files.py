@@ -118,8 +118,7 @@ class MeshFinder:
         self._resolver: IResourceResolver = resolver
         self._declared = frozenset(resolver.packages if isinstance(resolver, FileSystemResolver) else ())
         self._missing_packages = 0
-        spec = robot.source.span.file.path if robot.source else None
-        self._folder = spec.parent if spec else None
+        self._folder = robot.folder
         self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
         self._packages: dict[str, Path | None] = {}
         self._names: dict[Path, frozenset[str] | None] = {}

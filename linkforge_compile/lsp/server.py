@@ -16,6 +16,7 @@ from linkforge_compile._version import __version__
 from linkforge_compile.analysis import analyse_path
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
+from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
 
@@ -92,6 +93,7 @@ def make_server() -> SpecServer:
     """Return a server with all features, not started."""
     server = SpecServer()
     _add_synchronization(server)
+    _add_structure(server)
     return server
 
 
@@ -132,3 +134,10 @@ async def _put(server: SpecServer, uri: str, *, delay: float) -> None:
         document = server.workspace.get_text_document(uri)
         server.specs.put(path, document.version, document.source)
         await server.schedule(delay)
+
+
+def _add_structure(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+    def _fold(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+        document = server.document(params.text_document.uri)
+        return folding_ranges(document.file) if document else []

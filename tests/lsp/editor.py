@@ -1,6 +1,7 @@
 """An editor for tests: the real server in a process of its own, driven over stdio by pygls's client."""
 
 import asyncio
+import re
 import sys
 import threading
 from collections.abc import Awaitable, Callable, Coroutine
@@ -27,7 +28,8 @@ def split_at_cursor(text: str) -> tuple[str, types.Position]:
 class Editor:
     """One server and the documents open in it; each method returns when the server has answered."""
 
-    def __init__(self, *folders: Path, options: dict[str, object] | None = None) -> None:
+    def __init__(self, *folders: Path, options: dict[str, object] | None = None, python: str = sys.executable) -> None:
+        """Create an editor with folders open; `options` are those of the server, which `python` runs."""
         self._client = LanguageClient("editor", "1")
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -36,6 +38,7 @@ class Editor:
         self._versions: dict[str, int] = {}
         self._folders = folders
         self._options = options
+        self._python = python
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -44,7 +47,7 @@ class Editor:
         def _published(params: types.PublishDiagnosticsParams) -> None:
             self._note_diagnostics(params)
 
-        self.wait(self._client.start_io(sys.executable, "-m", "linkforge_compile", "lsp"))
+        self.wait(self._client.start_io(self._python, "-m", "linkforge_compile", "lsp"))
         folders = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in self._folders]
         self.capabilities = self.wait(
             self._client.initialize_async(
@@ -122,6 +125,12 @@ class Editor:
         with self._news:
             assert self._news.wait_for(is_current, TIMEOUT), f"no diagnostics of {path}"
             return list(self._published[uri].diagnostics)
+
+    def memory(self) -> float:
+        """Return the memory that the server uses [MB]."""
+        assert self._client._server is not None
+        status = Path(f"/proc/{self._client._server.pid}/status").read_text("ascii")
+        return int(re.findall(r"VmRSS:\s*(\d+)", status)[0]) / 1024
 
     def published(self, path: Path, until: Callable[[list[types.Diagnostic]], bool]) -> list[types.Diagnostic]:
         """Return the diagnostics of a file that need not be open, once they fulfil a condition."""
