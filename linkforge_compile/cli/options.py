@@ -19,8 +19,9 @@ from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_fact
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
+    from linkforge_compile.analysis import Settings
     from linkforge_compile.formats import Format
-    from linkforge_compile.pipeline import Compilation, Settings
+    from linkforge_compile.pipeline import Compilation
 
 STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
@@ -240,7 +241,7 @@ def check_settings_of(assignments: list[str], arguments: argparse.Namespace) -> 
 
 def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
     """Return what the options that every command on a spec has say; UsageError for a wrong value."""
-    from linkforge_compile.pipeline import Settings
+    from linkforge_compile.analysis import Settings
 
     if (factor := os.environ.get(FACTOR_VARIABLE)) and parse_factor(factor) is None:
         raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")

@@ -21,10 +21,10 @@ from linkforge_compile.cli.specs import FoundSpecs, SpecReport, find_parts, find
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
+    from linkforge_compile.analysis import Settings
     from linkforge_compile.collisions.matrix import Matrix
     from linkforge_compile.collisions.pairs import Names
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.pipeline import Settings
 
 MAX_SHOWN = 20
 """The most pairs that `--check` lists."""
