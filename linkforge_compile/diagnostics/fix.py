@@ -66,12 +66,30 @@ class Replacement(NamedTuple):
             return None
         at = begin + (text.find(self.old) if self.old else 0)
         place = span.file.between(at, at + len(self.old or text))
-        return Fix(f"write '{self.new}'", (Edit(place, self.new),), self.is_safe)
+        title = f"write '{self.new}'" if self.new else f"leave out '{self.old}'"
+        return Fix(title, (Edit(place, self.new),), self.is_safe)
 
     def is_word_for(self, span: Span | None) -> bool:
         """Whether `new` keeps its meaning in place of a name, in the quotes that the span has or without any."""
         quote = span.file.counted[span.file.index_of(*span.start)] if span and span.start != span.end else ""
         return not {*"'\"\\\n"} & {*self.new} if quote in ("'", '"') else _PLAIN.fullmatch(self.new) is not None
+
+
+def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:
+    """Return the fixes that can be applied together: of two that change the same text, the first."""
+    taken: dict[str, list[tuple[int, int]]] = {}
+    kept = []
+    for fix in fixes:
+        places = [(taken.setdefault(edit.span.file.name, []), *edit.range) for edit in fix.edits]
+        if not any(
+            begin <= end_of_other and begin_of_other <= end
+            for others, begin, end in places
+            for begin_of_other, end_of_other in others
+        ):
+            kept.append(fix)
+            for others, begin, end in places:
+                others.append((begin, end))
+    return kept
 
 
 def apply_edits(file: SourceFile, edits: Iterable[Edit]) -> str:
