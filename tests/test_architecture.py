@@ -50,9 +50,13 @@ MAY_IMPORT = {
     ),
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
+    "lsp": (
+        "analysis source diagnostics syntax schema expressions units load expand listing core export_spec editor roots "
+        "resources formats lower _version"
+    ),
     "cli": (
         "banner source diagnostics limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats export_spec compare collisions editor resources file_watcher _version"
+        "importing formats export_spec compare collisions editor lsp resources file_watcher _version"
     ),
 }
 

@@ -6,16 +6,26 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
+from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.manager_parameters import (
+    CONTROLLER,
+    HARDWARE,
+    SourcedText,
+    is_name_of_controller,
+    listed_names,
+)
 from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_GROUP,
     UNKNOWN_HARDWARE_SENSOR,
     UNKNOWN_JOINT,
     UNKNOWN_LINK,
+    UNKNOWN_OF_MANAGER,
 )
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
+    from linkforge_compile.source import SourceRef
 
 _JOINTS = ("joints", "left_wheels", "right_wheels")
 
@@ -39,6 +49,31 @@ def check_names_in_controllers(robot: Robot, unresolved: UnresolvedNames) -> Ite
         known = [*sensors, *gpios, *robot.joints.names]
         references = _references(robot, "sensor")
         yield from report_unknown(references, UNKNOWN_HARDWARE_SENSOR, known, unresolved, offered=sensors)
+
+
+def check_names_of_manager(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
+    """The hardware and the controllers in the parameters of the controller manager are of this robot.
+
+    The controller manager logs a warning for unknown hardware, which it then activates as all others, and refuses to
+    start a controller with an unknown one as its fallback. Correct the name.
+    """
+    manager = robot.controllers.get(MANAGER)
+    if manager is None:
+        return
+    loaded = (name for name, value in manager.parameters.items() if is_name_of_controller(name, value))
+    stated = [one.name for one in robot.controllers if one.name != MANAGER]
+    known = {
+        HARDWARE: [system.name for system in robot.ros2_controls],
+        CONTROLLER: [*stated, *(name.partition(".")[0] for name in loaded)] if stated else [],
+    }
+    for kind, names in known.items():
+        listed = [name for its, name in listed_names(manager.parameters) if its == kind]
+        references = [Reference(name, "the controller manager", _source_of(name)) for name in listed]
+        yield from report_unknown(references if names else (), UNKNOWN_OF_MANAGER, names, unresolved, kind=kind)
+
+
+def _source_of(name: str) -> SourceRef | None:
+    return name.source if isinstance(name, SourcedText) else None
 
 
 def _references(robot: Robot, *keys: str) -> Iterator[Reference]:

@@ -107,15 +107,15 @@ def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
     return {option.name: getattr(arguments, option.name, option.default) for option in declared_options()}
 
 
-def refuse_options_of_other_formats(arguments: argparse.Namespace, requested: Sequence[str]) -> None:
-    """Refuse an option that has no effect, because none of the requested formats has it."""
+def refuse_options_of_other_formats(arguments: argparse.Namespace, requested: Sequence[str], option_of: str) -> None:
+    """Refuse an option that has no effect, because none of the formats that `option_of` requested has it."""
     values = format_options_of(arguments)
     for option in declared_options():
         owners = [one.name for one in formats.FORMATS if option in one.options]
         if values[option.name] != option.default and not set(owners).intersection(requested):
             raise UsageError(
                 f"--{option.name} is an option of {alternatives(owners)}, found {alternatives(requested, 'and')}; "
-                f"add --format {owners[0]}, or leave it out"
+                f"add {option_of} {owners[0]}, or leave it out"
             )
 
 

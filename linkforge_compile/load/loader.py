@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
 
 _PACKAGE_SCHEME = "package://"
+_FOR_EVERY_RUN = (
+    "to allow it in every run, set ROS_PACKAGE_PATH to the folder that has the folder of package '{name}' in it; "
+    "in CMake, write PACKAGES {name}=FOLDER"
+)
 
 _CHECK_BUDGETS = 3
 """How many budgets `check_spec` may spend; the largest robot is checked twice with its SRDF."""
@@ -193,9 +197,10 @@ class Loader:
         """Whether the namer of a file may read it; reports why not, whether or not the file exists."""
         if used.where is None or self.roots.hold(path):
             return True
-        notes = map(Note, self.roots.reasons(path))
-        is_package = used.text.startswith(_PACKAGE_SCHEME)
-        name = used.text.removeprefix(_PACKAGE_SCHEME).partition("/")[0] if is_package else "NAME"
+        notes, name = [*map(Note, self.roots.reasons(path))], "NAME"
+        if used.text.startswith(_PACKAGE_SCHEME):
+            name = used.text.removeprefix(_PACKAGE_SCHEME).partition("/")[0]
+            notes.append(Note(_FOR_EVERY_RUN.format(name=name)))
         sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False
 

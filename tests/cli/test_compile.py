@@ -524,6 +524,14 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
             "--gazebo is an option of urdf or moveit, found sdf; add --format urdf, or leave it out",
         ),
         (("watch", "swing.robot.yaml", "-o", "a.mjcf", "--nested"), "--nested is an option of sdf, found mjcf"),
+        (
+            ("check", "swing.robot.yaml", "--for", "mjcf", "--nested"),
+            "--nested is an option of sdf, found mjcf; add --for sdf, or leave it out",
+        ),
+        (
+            ("check", "swing.robot.yaml", "--base", "free"),
+            "--base is an option of mjcf, found urdf and srdf; add --for",
+        ),
         (("check", "--format", "json", "--diagnostics", "json"), "may be given once"),
         (("schema", "-o", "a.json", "-o", "b.json"), "argument -o/--output: may be given once"),
         (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),

@@ -12,6 +12,7 @@ from linkforge_compile.cli.options import (
     add_spec_options,
     check_settings_of,
     check_spec,
+    refuse_options_of_other_formats,
     split_assignments,
 )
 from linkforge_compile.cli.reports import (
@@ -24,6 +25,7 @@ from linkforge_compile.cli.reports import (
 )
 from linkforge_compile.cli.specs import SpecReport, count, find_parts, find_specs_of
 from linkforge_compile.cli.targets import add_for_option, refuse_formats_as_specs
+from linkforge_compile.formats import formats_or_default
 
 if TYPE_CHECKING:
     import argparse
@@ -74,6 +76,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     words, assignments = split_assignments(arguments.words)
     refuse_formats_as_specs(words, "--for")
+    requested = [one.name for one in formats_or_default(arguments.formats)]
+    refuse_options_of_other_formats(arguments, requested, "--for")
     found = find_specs_of(words or ["."], arguments)
     if arguments.all_variants and arguments.variants:
         raise UsageError("takes --variant or --all-variants, not both")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 from linkforge_compile.core.fields import Data, Name, Reference, Text
+from linkforge_compile.core.models.manager_parameters import with_prefixed_names
 from linkforge_compile.core.naming import require_not_blank
 from linkforge_compile.core.part import Element, FrozenMap, extras_last
 
@@ -20,7 +21,7 @@ class Controller(Element):
     `joints` are those that it commands or reads, for a `group` without them the joints of the group. `left_wheels` and
     `right_wheels` are those of a differential drive. `sensor` is a sensor of ros2_control, whose values are in `frame`.
     `parameters` are all others: numbers, booleans, texts, and lists and maps of them. `type` is None for the
-    controller manager alone, whose name takes no prefix.
+    controller manager alone, whose name takes no prefix; the names of hardware and controllers in its parameters do.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name.
@@ -46,5 +47,6 @@ class Controller(Element):
 
     def with_prefix(self, prefix: str) -> Self:
         if self.name == MANAGER:
-            return self
+            parameters = with_prefixed_names(self.parameters, prefix)
+            return self if parameters == self.parameters else self.with_fields(parameters=parameters)
         return super().with_prefix(prefix)

@@ -312,7 +312,8 @@ WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, fo
 STATED_TWICE = Code(
     "LF7621",
     _E,
-    "controller '{controller}' has '{parameter}' in `parameters`, and `{field}` for the same; remove one of them",
+    "controller '{controller}' has '{parameter}' in `parameters`{owner}, and `{field}` for the same; remove one of "
+    "them",
 )
 ONE_OF_SEVERAL = Code(
     "LF7622",

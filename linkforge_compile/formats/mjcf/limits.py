@@ -58,6 +58,7 @@ def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
     yield from check_inertials(robot)
     yield from check_meshes(robot)
     yield from check_actuators(robot)
+    yield from check_driven(robot)
     if not is_free and not robot.has_link(WORLD):
         yield from check_base(robot)
     for sensor in robot.sensors:
@@ -97,8 +98,10 @@ def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
         if not has_gain(drive):
             yield NO_GAIN.at(where, "command_interfaces", joint=name, interface=interface, gain=GAINS[interface][0])
 
-    moving = [joint for joint in robot.joints if joint.type in SINGLE]
-    if moving and not any(drives(robot)):
+
+def check_driven(robot: Robot) -> Iterator[Diagnostic]:
+    """A robot with joints that move has an actuator."""
+    if any(joint.type in SINGLE for joint in robot.joints) and not any(drives(robot)):
         yield NO_ACTUATOR.at(robot.source, "name", robot=robot.name)
 
 

@@ -33,7 +33,7 @@ from linkforge_compile.formats.ros2_controllers.kinds import (
 )
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
 from linkforge_compile.formats.ros2_controllers.refused import check_refused, has_one_type
-from linkforge_compile.source import Key
+from linkforge_compile.formats.ros2_controllers.view import place_of, place_of_key
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
@@ -128,12 +128,12 @@ def _check_types(controller: Controller, declared_by: str, named: Iterable[str])
         *outer, name = path
         if expected is None:
             inside = f" in '{'.'.join(outer)}'" if outer else ""
-            place = ("parameters", *outer, Key(name))
-            yield UNKNOWN_PARAMETER.at(controller.source, *place, name=name, owner=owner, inside=inside, near=near)
+            place = place_of_key(controller.source, "parameters", *path)
+            yield UNKNOWN_PARAMETER.at(*place, name=name, owner=owner, inside=inside, near=near)
         else:
             name, found = ".".join(path), _shown(value)
-            place = ("parameters", *path)
-            yield WRONG_PARAMETER.at(controller.source, *place, name=name, owner=owner, expected=expected, found=found)
+            place = place_of(controller.source, "parameters", *path)
+            yield WRONG_PARAMETER.at(*place, name=name, owner=owner, expected=expected, found=found)
 
 
 def _joints(controller: Controller) -> tuple[str, ...]:

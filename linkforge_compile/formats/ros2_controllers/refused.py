@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.manager_parameters import loaded_class
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import (
     LIST_OF_SEVERAL_TYPES,
@@ -15,7 +16,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     STATED_TWICE,
 )
 from linkforge_compile.formats.ros2_controllers.kinds import kind_of
-from linkforge_compile.formats.ros2_controllers.view import typed_parameters
+from linkforge_compile.formats.ros2_controllers.view import place_of, typed_parameters
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -33,8 +34,11 @@ def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Dia
         yield from _check_lists(controller)
         if controller.name != MANAGER:
             yield from _check_stated_once(controller)
+    manager = robot.controllers.get(MANAGER)
     for controller in completed:
         yield from _check_name(controller)
+        if manager:
+            yield from _check_loaded_class(manager, controller)
         yield from _check_single_fields(controller)
 
 
@@ -59,15 +63,26 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
         if name in controller.parameters and getattr(controller, stated):
             notes = [Note(f"`{stated}` is here", controller.source.at(stated))] if controller.source else []
             facts = {"controller": controller.name, "parameter": name, "field": stated}
-            yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, **facts)
+            yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, owner="", **facts)
+
+
+def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
+    """The class of a controller is not another one in the parameters of the manager."""
+    loaded = loaded_class(manager.parameters, controller.name)
+    if loaded and loaded.type != controller.type:
+        notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
+        place, owner = place_of(manager.source, "parameters", *loaded.path), f" of '{MANAGER}'"
+        yield STATED_TWICE.at(
+            *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
+        )
 
 
 def _check_lists(controller: Controller) -> Iterator[Diagnostic]:
     """A list has items of one type, and no lists or maps: the parser of rcl refuses the whole file."""
     for path, value in _values(typed_parameters(controller), ()):
         if isinstance(value, list) and not has_one_type(value):
-            place, name = ("parameters", *path), ".".join(path)
-            yield LIST_OF_SEVERAL_TYPES.at(controller.source, *place, controller=controller.name, parameter=name)
+            place, name = place_of(controller.source, "parameters", *path), ".".join(path)
+            yield LIST_OF_SEVERAL_TYPES.at(*place, controller=controller.name, parameter=name)
 
 
 def has_one_type(items: Sequence[object]) -> bool:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.graph import child_joints, parent_joints
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.sensor import SensorType
-from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, settings_by_reference
 from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.unique_name import unique_name
@@ -40,8 +40,8 @@ class Layout:
 
     @classmethod
     def of(cls, robot: Robot) -> Layout:
-        above, below = parent_joints(robot.joints), child_joints(robot.joints)
-        bodies = _links_that_need_bodies(robot)
+        above, bodies = parent_joints(robot.joints), _links_that_need_bodies(robot)
+        holding = child_joints(joint for joint in fixed_joints(robot) if joint.child not in bodies)
         frames: dict[str, str] = {}
         carriers: dict[str, str] = {}
         weightless: set[str] = set()
@@ -53,7 +53,7 @@ class Layout:
                 weightless.add(link.name)
             elif joint and joint.type == JointType.FIXED and not (joint.parent == WORLD and WORLD not in above):
                 frames[link.name] = joint.parent
-            elif carrier := _carrier(link.name, robot, below, bodies):
+            elif carrier := _first_with_mass(link.name, robot, holding):
                 frames[link.name] = carriers[link.name] = carrier
             else:
                 weightless.add(link.name)
@@ -127,16 +127,6 @@ def _links_that_need_bodies(robot: Robot) -> set[str]:
     return needed
 
 
-def _carrier(link: str, robot: Robot, below: Mapping[str, list[Joint]], bodies: set[str]) -> str | None:
+def _first_with_mass(link: str, robot: Robot, holding: Mapping[str, Sequence[Joint]]) -> str | None:
     """Return the first link with a mass that fixed joints hold to a link, by links without one."""
-    held, seen = [link], {link}
-    for name in held:
-        for joint in below.get(name, ()):
-            child = robot.links.get(joint.child)
-            if child is None or joint.type != JointType.FIXED or child.name in bodies or child.name in seen:
-                continue
-            if _has_mass(child):
-                return child.name
-            held.append(child.name)
-            seen.add(child.name)
-    return None
+    return next((one.child for one in walk_down((link,), holding) if _has_mass(robot.links[one.child])), None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
+from linkforge_compile.core.constants import LEAST_MASS, MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link, Visual
 from linkforge_compile.core.moments import possible_inertia, principal_moments
@@ -22,9 +22,6 @@ from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-
-LEAST_MASS = 1e-9
-"""The mass of a body that has none [kg]: small enough not to matter."""
 
 
 class Links:
