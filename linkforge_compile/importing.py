@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.analysis import Packages, Parameters, Settings, check_alone
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import LOSSES, MESH_BESIDE_THE_URDF
@@ -24,7 +25,7 @@ from linkforge_compile.importers.origin import Origin, digest_of
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.load import ImportSite, Loader, SpecFile, is_xacro
 from linkforge_compile.lower import MeshSolids
-from linkforge_compile.pipeline import Packages, Parameters, Settings, check_alone, compile_source
+from linkforge_compile.pipeline import compile_source
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlMap, YamlScalar, read
 

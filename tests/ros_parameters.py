@@ -32,6 +32,8 @@ def nodes_in(text: str) -> dict[str, dict[str, object]]:
 
 def _map(node: yaml.Node | None) -> dict[str, yaml.Node]:
     assert isinstance(node, yaml.MappingNode)
+    names = [key.value for key, _ in node.value]
+    assert len(set(names)) == len(names), f"a key is there twice: {names}"
     return {key.value: value for key, value in node.value}
 
 

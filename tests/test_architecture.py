@@ -40,19 +40,23 @@ MAY_IMPORT = {
     "export_spec": "source diagnostics units syntax core expand",
     "compare": "source units core formats",
     "collisions": "source diagnostics syntax core checks roots",
-    "pipeline": (
-        "source diagnostics limits units syntax schema importers load expand listing lower checks formats core roots "
-        "fresh_stack gc_paused compilation"
+    "analysis": (
+        "source diagnostics limits load expand lower checks formats core roots fresh_stack gc_paused compilation"
     ),
+    "pipeline": "diagnostics limits load expand listing formats compilation analysis core",
     "importing": (
-        "source diagnostics limits syntax core compilation importers load expand lower formats pipeline "
-        "fresh_stack gc_paused"
+        "source diagnostics limits syntax core compilation importers load expand lower formats analysis "
+        "pipeline fresh_stack gc_paused"
     ),
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
+    "lsp": (
+        "analysis source diagnostics syntax schema expressions units load expand listing core export_spec editor roots "
+        "resources formats lower _version"
+    ),
     "cli": (
-        "banner source diagnostics limits roots paths core checks schema load expand listing pipeline importing "
-        "formats export_spec compare collisions editor resources file_watcher _version"
+        "banner source diagnostics limits roots paths core checks schema load expand listing analysis pipeline "
+        "importing formats export_spec compare collisions editor lsp resources file_watcher _version"
     ),
 }
 
@@ -189,7 +193,7 @@ def test_files_in_the_guide_exist():
 
 # The layout that the project prescribes, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
-FURTHER = "benchmarks cmake docs"
+FURTHER = "benchmarks cmake docs editors"
 
 
 def test_nothing_else_is_at_the_top_level():

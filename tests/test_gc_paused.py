@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from linkforge_compile import compile_text, pipeline
+from linkforge_compile import analysis, compile_text
 from linkforge_compile.lower import lower
 
 BALL = "linkforge: 1\nname: ball\nlinks: {base: }\n"
@@ -27,7 +27,7 @@ def states(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
         seen.append(gc.isenabled())
         return lower(*arguments)
 
-    monkeypatch.setattr(pipeline, "lower", watched)
+    monkeypatch.setattr(analysis, "lower", watched)
     return seen
 
 
@@ -50,7 +50,7 @@ def test_it_is_resumed_after_a_compile_that_failed(monkeypatch: pytest.MonkeyPat
         raise OSError("the disk is gone")
 
     gc.enable()
-    monkeypatch.setattr(pipeline, "lower", failing)
+    monkeypatch.setattr(analysis, "lower", failing)
     with pytest.raises(OSError, match="the disk is gone"):
         compile_text(BALL)
     assert gc.isenabled()

@@ -338,6 +338,27 @@ def test_ros_package_path_may_be_read(tmp_path: Path, monkeypatch: pytest.Monkey
     assert codes(compile_file(spec)) == []
 
 
+@pytest.mark.parametrize("packages", ["packages: {arm: ../arm}\n", ""])
+def test_a_package_next_to_that_of_the_spec_may_be_read_in_the_way_that_the_message_names(
+    packages: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    for name in ("arm", "cell"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    (tmp_path / "arm" / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\nlinks: {tool: }\n")
+    cell = tmp_path / "cell" / "cell.robot.yaml"
+    use = "modules: {arm: {use: package://arm/arm.robot.yaml, parent: base}}\n"
+    cell.write_text(f"linkforge: 1\nname: cell\n{packages}links: {{base: }}\n{use}")
+    (refused,) = compile_file(cell).diagnostics
+    if packages:
+        assert refused.code.id == "LF3401"
+        assert (
+            "set ROS_PACKAGE_PATH to the folder that has the folder of package 'arm' in it" in refused.notes[-1].message
+        )
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    assert compile_file(cell).diagnostics == ()
+
+
 def test_a_text_that_lies_nowhere_reads_nothing(tmp_path: Path):
     part = written(tmp_path / "part.robot.yaml")
     text = f"linkforge: 1\nname: cell\nlinks: {{base: }}\nmodules: {{m: {{use: '{part}', parent: base}}}}\n"

@@ -69,6 +69,7 @@ ROBOT_CHECKS: tuple[Check, ...] = (
     ros2_control.check_mimics_in_hardware,
     ros2_control.check_hardware_is_used,
     controllers.check_names_in_controllers,
+    controllers.check_names_of_manager,
     sensors.check_gazebo_references,
     sensors.check_plugin_joints,
     sensors.check_plugin_files,

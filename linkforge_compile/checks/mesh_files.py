@@ -11,6 +11,7 @@ import os
 import re
 import struct
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
@@ -20,7 +21,8 @@ from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
 from linkforge_compile.diagnostics import UnresolvedNames
-from linkforge_compile.roots import exists, is_file
+from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.roots import ANYWHERE, exists, identity, is_file, package_name
 
 HEADER, TRIANGLE = 84, 50
 """The sizes of the header and of a triangle of a binary STL file [bytes]."""
@@ -116,8 +118,8 @@ class MeshFinder:
         self._resolver: IResourceResolver = resolver
         self._declared = frozenset(resolver.packages if isinstance(resolver, FileSystemResolver) else ())
         self._missing_packages = 0
-        spec = robot.source.span.file.path if robot.source else None
-        self._folder = spec.parent if spec else None
+        self._folder = robot.folder
+        self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
         self._packages: dict[str, Path | None] = {}
         self._names: dict[Path, frozenset[str] | None] = {}
         self._open_folders: dict[Path, bool] = {}
@@ -163,6 +165,27 @@ class MeshFinder:
         # A package may lie in several places, and the resolver takes the one that holds the file.
         path = folder / inside
         return path if exists(path) else self._resolve(f"package://{package}/{inside}") or path
+
+    def misspelt_package(self, resource: str) -> tuple[str, str] | None:
+        """Return the package of a mesh path that is not found, and one with a name like it that has the file.
+
+        None if there is none such among the declared packages and those above the spec: the package may be one that
+        this machine lacks.
+        """
+        scheme, _, rest = resource.partition("://")
+        package, _, inside = rest.partition("/")
+        if scheme != "package" or package not in self._packages or self._packages[package] is not None:
+            return None
+        similar = nearest(package, self._known_packages)
+        path = self._in_package(similar, inside) if similar and inside else None
+        return (package, similar) if similar and path and self._may_look_at(path) and is_file(path) else None
+
+    @cached_property
+    def _known_packages(self) -> frozenset[str]:
+        """The names of the declared packages, and of those that hold the spec."""
+        start = Path(identity(self._folder)) if self._folder else None
+        above = (package_name(folder, self._roots) for folder in (start, *start.parents)) if start else ()
+        return self._declared.union(filter(None, above))
 
     def _resolve(self, uri: str) -> Path | None:
         try:

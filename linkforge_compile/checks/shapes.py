@@ -18,6 +18,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     HOLLOW_MESH_FILE,
     MIRRORED_COLLISIONS,
     MISSING_MESH,
+    MISSPELT_PACKAGE,
     UNSEEN_COLLISIONS,
     UNTOUCHED_VISUALS,
     WIDE_MESH,
@@ -45,8 +46,9 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds no
     shape; a mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Not checked are meshes of packages that
     this machine does not have, of schemes other than `package` and `file`, and outside of the folders that a spec may
-    make us read. Each file is reported once. The files of a missing folder are reported together, and so, after a
-    hundred, are those of an existing one.
+    make us read. A package that is not found is reported if one with a similar name, declared or above the spec, has
+    the file. Each file is reported once. The files of a missing folder are reported together, and so, after a hundred,
+    are those of an existing one.
     """
     finder = meshes.finder
     missing: dict[Path, dict[str, Mesh]] = {}
@@ -63,6 +65,7 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
             together.setdefault(each.mesh.resource, each.mesh)
         elif diagnostic := _fault_in(meshes, each.mesh):
             yield diagnostic
+    yield from _misspelt_packages(firsts.values(), finder)
     for path, by_resource in missing.items():
         yield _missing(path, by_resource.values(), finder)
     if forbidden := [each for each in checked if each.mesh.resource in finder.forbidden]:
@@ -73,17 +76,32 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
         yield _report_meshes(skipped, UNSOUGHT_MESHES, "file", packages=packages)
 
 
+def _misspelt_packages(shapes: Iterable[MeshShape], finder: MeshFinder) -> Iterator[Diagnostic]:
+    """Yield one diagnostic for each package that is misspelt in the paths of meshes."""
+    found: dict[tuple[str, str], dict[str, Mesh]] = {}
+    for each in shapes:
+        if names := finder.misspelt_package(each.mesh.resource):
+            found.setdefault(names, {}).setdefault(each.mesh.resource, each.mesh)
+    for (package, similar), by_resource in found.items():
+        first, *others = by_resource.values()
+        notes = _places_of(others, "mesh '{}' is in it, too", "and {:,} more")
+        yield MISSPELT_PACKAGE.at(first.source, "file", path=first.resource, name=package, near=[similar], notes=notes)
+
+
+def _places_of(meshes: Sequence[Mesh], words: str, more_words: str) -> list[Note]:
+    """Return a note for each of the first meshes, and one with the number of the others."""
+    shown = [(words.format(mesh.resource), mesh.source) for mesh in meshes[:SHOWN]]
+    notes = [Note(message, source.at("file") if source else None) for message, source in shown]
+    return [*notes, Note(more_words.format(more))] if (more := len(meshes) - SHOWN) > 0 else notes
+
+
 def _missing(path: Path, meshes: Iterable[Mesh], finder: MeshFinder) -> Diagnostic:
     """Report a missing file, or once all missing files of a folder."""
     first, *others = meshes
     if is_folder(path):
         path = finder.path(first.resource) or path
     near = finder.names_instead_of(path) or ()
-    sources = [(mesh.resource, mesh.source) for mesh in others[:SHOWN]]
-    notes = [Note(f"looked for it at {path}")]
-    notes += [Note(f"nor '{resource}'", source.at("file") if source else None) for resource, source in sources]
-    if (more := len(others) - SHOWN) > 0:
-        notes.append(Note(f"and {more:,} more in this folder"))
+    notes = [Note(f"looked for it at {path}"), *_places_of(others, "nor '{}'", "and {:,} more in this folder")]
     return MISSING_MESH.at(first.source, "file", path=first.resource, name=path.name, near=near, notes=notes)
 
 

@@ -34,6 +34,7 @@ COMMANDS = {
     "schema": "print the JSON Schema of specs, for editors",
     "formats": "list the output formats, with what each keeps and loses of a robot",
     "deps": "list the files from which a robot is compiled",
+    "lsp": "start the language server, as editors do",
     "matcher": "print the problem matcher for GitHub Actions",
     "completion": "print the script with which bash, zsh or fish complete these commands",
 }

@@ -19,8 +19,9 @@ from linkforge_compile.limits import FACTOR_VARIABLE, MAX_FILE_BYTES, parse_fact
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
+    from linkforge_compile.analysis import Settings
     from linkforge_compile.formats import Format
-    from linkforge_compile.pipeline import Compilation, Settings
+    from linkforge_compile.pipeline import Compilation
 
 STDIN = "<stdin>"
 """The name of standard input in diagnostics."""
@@ -106,15 +107,15 @@ def format_options_of(arguments: argparse.Namespace) -> dict[str, str]:
     return {option.name: getattr(arguments, option.name, option.default) for option in declared_options()}
 
 
-def refuse_options_of_other_formats(arguments: argparse.Namespace, requested: Sequence[str]) -> None:
-    """Refuse an option that has no effect, because none of the requested formats has it."""
+def refuse_options_of_other_formats(arguments: argparse.Namespace, requested: Sequence[str], option_of: str) -> None:
+    """Refuse an option that has no effect, because none of the formats that `option_of` requested has it."""
     values = format_options_of(arguments)
     for option in declared_options():
         owners = [one.name for one in formats.FORMATS if option in one.options]
         if values[option.name] != option.default and not set(owners).intersection(requested):
             raise UsageError(
                 f"--{option.name} is an option of {alternatives(owners)}, found {alternatives(requested, 'and')}; "
-                f"add --format {owners[0]}, or leave it out"
+                f"add {option_of} {owners[0]}, or leave it out"
             )
 
 
@@ -221,11 +222,20 @@ def compile_spec(
     return compile_path(spec, settings)
 
 
-def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace, variant: str | None) -> Compilation:
-    """Check a spec, in a variant, with the other options of `add_spec_options`."""
+def check_spec(
+    spec: str,
+    assignments: list[str],
+    arguments: argparse.Namespace,
+    variant: str | None,
+    buffers: Mapping[str, str] = MappingProxyType({}),
+) -> Compilation:
+    """Check a spec, in a variant, with the other options of `add_spec_options`.
+
+    `buffers` are texts that are read instead of files, by real path.
+    """
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = check_settings_of(assignments, arguments)._replace(variant=variant)
+    settings = check_settings_of(assignments, arguments)._replace(variant=variant, buffers=buffers)
     if spec == "-":
         return compile_source(read_stdin(), STDIN, Path.cwd(), settings)
     return compile_path(spec, settings)
@@ -240,7 +250,7 @@ def check_settings_of(assignments: list[str], arguments: argparse.Namespace) -> 
 
 def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settings:
     """Return what the options that every command on a spec has say; UsageError for a wrong value."""
-    from linkforge_compile.pipeline import Settings
+    from linkforge_compile.analysis import Settings
 
     if (factor := os.environ.get(FACTOR_VARIABLE)) and parse_factor(factor) is None:
         raise UsageError(f"{FACTOR_VARIABLE} takes a whole number from 1 to 999999999, found '{factor}'")

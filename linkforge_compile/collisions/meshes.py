@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.bounding import ScanBudget
 from linkforge_compile.checks.mesh_files import MeshFinder, scan_mesh
-from linkforge_compile.core.meshes import MeshError, MeshFault, triangles_in
+from linkforge_compile.core.meshes import MAX_BYTES, MeshError, MeshFault, triangles_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     import numpy as np
     from coal import BVHModelBase
     from numpy.typing import NDArray
-
-MAX_BYTES = 128 * 1024 * 1024
-"""The largest mesh that is read, as for inertias [bytes]."""
 
 _PACKAGE = "package://"
 

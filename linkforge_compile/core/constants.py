@@ -22,6 +22,7 @@ WORLD: Final = "world"
 """The link that represents the world, to Gazebo as well; it needs no mass."""
 DEFAULT_LINK_MASS: Final = 1.0  # [kg]
 MIN_REASONABLE_INERTIA: Final = 1e-9  # [kg·m²], the diagonal of a tensor that is not given
+LEAST_MASS: Final = 1e-9  # [kg], that of a link without mass, where a simulator needs one: too small to matter
 DEFAULT_SELF_COLLIDE: Final = False
 GRAVITY_ENABLED: Final = True
 DEFAULT_FRICTION_MU: Final = 1.0  # Coulomb, first direction

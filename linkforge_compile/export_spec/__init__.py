@@ -5,7 +5,7 @@ from __future__ import annotations
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.explain import ComputedFrom, Explanation, UnknownPathError, explain, parts_at
-from linkforge_compile.export_spec.provenance import compiled_folder, origin_of
+from linkforge_compile.export_spec.provenance import origin_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.syntax.writer import write
 
@@ -33,7 +33,6 @@ def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False
     """
     builder = SpecBuilder()
     tree = spec_of(robot, builder)
-    folder = compiled_folder(robot)
-    comments = {key: origin_of(source, folder) for key, source in builder.parts.items()} if origins else {}
+    comments = {key: origin_of(source, robot.folder) for key, source in builder.parts.items()} if origins else {}
     heading = "".join(f"# {line}\n" for line in (banner or "").splitlines())
     return heading + write(tree, comments)

@@ -5,17 +5,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Provenance, outward
 from linkforge_compile.syntax import read
-
-
-def compiled_folder(robot: Robot) -> Path | None:
-    """Return the folder of the file that a robot was compiled from, None for text and for what was built in Python."""
-    path = robot.source.span.file.path if robot.source else None
-    return path.parent if path else None
 
 
 def written_at(span: Span) -> Provenance:

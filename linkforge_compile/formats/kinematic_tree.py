@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.graph import child_joints, parent_joints
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import Joint, JointType
 
 if TYPE_CHECKING:
@@ -27,13 +27,13 @@ class Node(NamedTuple):
 class KinematicTree(NamedTuple):
     """The links of a robot, each before those below it, depth first.
 
-    `above` has the joint that holds a link, `below` the joints by parent. A joint to a link that has one already is
-    left out. The world is no body, so it is not among the nodes that hold others.
+    `above` has the joint that holds a link, `fixed` the fixed joints by parent. A joint to a link that has one already
+    is left out. The world is no body, so it is not among the nodes that hold others.
     """
 
     nodes: Sequence[Node]
     above: Mapping[str, Joint]
-    below: Mapping[str, Sequence[Joint]]
+    fixed: Mapping[str, Sequence[Joint]]
 
     @classmethod
     def of(cls, robot: Robot) -> KinematicTree:
@@ -47,7 +47,7 @@ class KinematicTree(NamedTuple):
             for joint in reversed(below.get(node.link.name, ())):
                 if above[joint.child] is joint and robot.has_link(joint.child):
                     open_nodes.append(Node(robot.links[joint.child], joint, depth))
-        return cls(nodes, above, below)
+        return cls(nodes, above, child_joints(fixed_joints(robot)))
 
     def depth(self) -> int:
         """Return how many bodies are inside each other at most."""
@@ -55,14 +55,17 @@ class KinematicTree(NamedTuple):
 
     def held_by(self, link: str) -> Iterator[str]:
         """Yield a link and all that fixed joints hold to it from below."""
-        held = [link]
-        for name in held:
-            yield name
-            held += [joint.child for joint in self.below.get(name, ()) if joint.type == JointType.FIXED]
+        yield link
+        yield from (joint.child for joint in walk_down((link,), self.fixed))
 
     def fixed_to(self, link: str) -> Iterator[str]:
         """Yield the links that a fixed joint connects with a link directly, the one above it first."""
         joint = self.above.get(link)
         if joint and joint.type == JointType.FIXED:
             yield joint.parent
-        yield from (joint.child for joint in self.below.get(link, ()) if joint.type == JointType.FIXED)
+        yield from (joint.child for joint in self.fixed.get(link, ()))
+
+
+def fixed_joints(robot: Robot) -> Iterator[Joint]:
+    """Yield the fixed joints whose child is a link of the robot."""
+    return (joint for joint in robot.joints if joint.type == JointType.FIXED and robot.has_link(joint.child))

@@ -1,13 +1,13 @@
-"""The files of meshes on this machine, for formats whose readers do not look for packages."""
+"""The files of meshes and textures on this machine, for formats whose readers do not look for packages."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.core.models.geometry import Material, Mesh
 from linkforge_compile.roots import exists
 
 if TYPE_CHECKING:
@@ -23,6 +23,18 @@ class MeshPath(NamedTuple):
     mesh: Mesh
     path: Path | None
 
+    @property
+    def resource(self) -> str:
+        return self.mesh.resource
+
+
+class TexturePath(NamedTuple):
+    """A material with its texture and the absolute path of that, None for a file that is not found."""
+
+    material: Material
+    resource: str
+    path: Path | None
+
 
 def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
     """Yield each mesh of a robot once, those of one file with different scales too, in the order of the links."""
@@ -31,22 +43,33 @@ def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
             yield MeshPath(mesh, find_file(robot, mesh.resource))
 
 
-def mesh_files_of(robot: Robot) -> tuple[Path, ...]:
-    """Return the absolute paths of all meshes that are found, and of relative ones where they would be."""
-    found = dict.fromkeys(path or _place_of(robot, mesh.resource) for mesh, path in mesh_paths(robot))
-    return tuple(path for path in found if path)
+def texture_paths(robot: Robot) -> Iterator[TexturePath]:
+    """Yield each material of a robot's visuals that has a texture once, in the order of the links."""
+    for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
+        if material and material.texture:
+            yield TexturePath(material, material.texture, find_file(robot, material.texture))
 
 
-def _place_of(robot: Robot, resource: str) -> Path | None:
-    """Return where a relative path of a mesh leads; None for a file of a package, which may be in many places."""
-    spec = robot.source.span.file.path if robot.source else None
-    return Path(os.path.abspath(spec.parent / resource)) if spec and is_relative(resource) else None  # noqa: PTH100
+def places_of_files(robot: Robot, files: Iterable[MeshPath | TexturePath]) -> tuple[Path, ...]:
+    """Return the absolute paths of files, of missing ones where they would be.
+
+    One of a package that is not found may be in many places, and is left out.
+    """
+    places = (file.path or _place_of_missing(robot, file.resource) for file in files)
+    return tuple(dict.fromkeys(filter(None, places)))
+
+
+def _place_of_missing(robot: Robot, resource: str) -> Path | None:
+    if resource.startswith(_PACKAGE):
+        package, _, inside = resource.removeprefix(_PACKAGE).partition("/")
+        folder = find_file(robot, f"{_PACKAGE}{package}")
+        return folder / inside if folder else None
+    return Path(os.path.abspath(robot.folder / resource)) if robot.folder and is_relative(resource) else None  # noqa: PTH100
 
 
 def find_file(robot: Robot, resource: str) -> Path | None:
     """Return the absolute path of a file that a robot refers to, such as a texture; None for one that is not found."""
-    spec = robot.source.span.file.path if robot.source else None
-    folder = spec.parent if spec else None
+    folder = robot.folder
     if folder and is_relative(resource) and not exists(folder / resource):
         return None  # the resolver looks in the working folder as well, where no reader of the output does
     try:

@@ -31,8 +31,7 @@ def check_relative_mesh_paths(
     `code`. A mesh that is in neither place is reported as missing elsewhere. `start` is where the paths of a robot
     without a file start, None if that is not known. `may_move` is whether the other file may be written elsewhere.
     """
-    spec = robot.source.span.file.path if robot.source and robot.source.span else None
-    start = spec.parent if spec else start
+    start = robot.folder or start
     if start is None:
         return
     missing = [

@@ -175,10 +175,10 @@ class RobotDescription:
             allow_outside=self._allow_outside,
         )
         from linkforge_compile.diagnostics import Severity
-        from linkforge_compile.diagnostics.render_text import render_text
+        from linkforge_compile.diagnostics.render_text import render_first, render_text
 
         if compilation.robot is None:
-            raise SubstitutionFailure(f"{self.spec} has errors:\n{render_text(compilation.diagnostics)}")
+            raise SubstitutionFailure(f"{self.spec} has errors:\n{render_first(compilation.diagnostics)}")
         logger = launch.logging.get_logger("linkforge")
         for severity, log in ((Severity.WARNING, logger.warning), (Severity.NOTE, logger.info)):
             if selected := tuple(one for one in compilation.diagnostics if one.severity is severity):

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.compilation import Compilation
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
 
 _PACKAGE_SCHEME = "package://"
+_FOR_EVERY_RUN = (
+    "to allow it in every run, set ROS_PACKAGE_PATH to the folder that has the folder of package '{name}' in it; "
+    "in CMake, write PACKAGES {name}=FOLDER"
+)
 
 _CHECK_BUDGETS = 3
 """How many budgets `check_spec` may spend; the largest robot is checked twice with its SRDF."""
@@ -71,18 +76,24 @@ class Loader:
     """All files of one compile."""
 
     def __init__(
-        self, packages: Mapping[str, Path] | None = None, roots: Roots = ANYWHERE, budget: Budget | None = None
+        self,
+        packages: Mapping[str, Path] | None = None,
+        roots: Roots = ANYWHERE,
+        budget: Budget | None = None,
+        buffers: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         """Create a loader without files.
 
         `packages` come before every other place where `package://` is looked for. Files that a spec names must lie
         within the `roots`, files that the user names may lie anywhere. `check_spec` finds the errors of a vendor's
         robot; the pipeline sets it, because later stages do the work. Without `runs_xacro` no xacro file is expanded.
+        `buffers` are texts that are read instead of files, by real path.
         """
         self.packages = dict(packages or {})
         self.roots = roots
         self.check_spec: CheckSpec = lambda _spec, _loader: Compilation(None, ())
         self.runs_xacro = True
+        self._buffers = buffers
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
         self._check_budget = Budget(times=_CHECK_BUDGETS, within=self.budget.within)
@@ -186,9 +197,10 @@ class Loader:
         """Whether the namer of a file may read it; reports why not, whether or not the file exists."""
         if used.where is None or self.roots.hold(path):
             return True
-        notes = map(Note, self.roots.reasons(path))
-        is_package = used.text.startswith(_PACKAGE_SCHEME)
-        name = used.text.removeprefix(_PACKAGE_SCHEME).partition("/")[0] if is_package else "NAME"
+        notes, name = [*map(Note, self.roots.reasons(path))], "NAME"
+        if used.text.startswith(_PACKAGE_SCHEME):
+            name = used.text.removeprefix(_PACKAGE_SCHEME).partition("/")[0]
+            notes.append(Note(_FOR_EVERY_RUN.format(name=name)))
         sink.report(OUTSIDE_ROOTS.at(used.where, path=used.text, name=name, notes=notes))
         return False
 
@@ -201,7 +213,9 @@ class Loader:
             return None
         try:
             # A pipe is fine if the user names it; one that an untrusted spec names would block the compile.
-            text = read_text(path, MAX_FILE_BYTES, only_regular=used.where is not None)
+            text = self._buffers.get(identity(path)) if self._buffers else None
+            if text is None:
+                text = read_text(path, MAX_FILE_BYTES, only_regular=used.where is not None)
         except UnreadableError as error:
             byte = place_of_byte(error.undecoded, str(as_typed(path))) if error.undecoded else None
             notes = [Note("the byte is here", byte)] if byte and used.where else []

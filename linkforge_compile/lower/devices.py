@@ -11,6 +11,7 @@ from linkforge_compile.core.fields import BEYOND_EPSILON, Child, field_specs
 from linkforge_compile.core.models.controller import MANAGER, Controller
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
+from linkforge_compile.core.models.manager_parameters import SourcedText, kind_of_names
 from linkforge_compile.core.models.ros2_control import (
     Interface,
     Ros2Control,
@@ -30,8 +31,8 @@ from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_i
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
 from linkforge_compile.source import Key, SourceRef
-from linkforge_compile.source.span import Located
-from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlScalar
+from linkforge_compile.source.span import Located, ModuleUse
+from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
 
 
@@ -142,7 +143,31 @@ def _lower_manager(fields: Fields) -> Controller | None:
     for entry in fields.node:
         if entry.name != "parameters" and fields.node.get(entry.name) is not None:
             fields.report(NOT_OF_MANAGER, fields.ref, Key(entry.name), field=entry.name)
-    return lower_element(Controller, fields, name=MANAGER, type=None)
+    values = lower_fields(Controller, fields, name=MANAGER, type=None)
+    if node := fields.node.get("parameters"):
+        values["parameters"] = _with_sources(values["parameters"], node, fields.trail)
+    return lower_element(Controller, fields, **values)
+
+
+def _with_sources(value: object, node: YamlNode, trail: tuple[ModuleUse, ...], path: tuple[str, ...] = ()) -> object:
+    """Return parameters of the manager with the places of their names, and of those in lists of names."""
+    if isinstance(value, dict) and isinstance(node, YamlMap):
+        entries = ((node.entries[name], item) for name, item in value.items())
+        return {
+            SourcedText(entry.name, SourceRef(entry.value, entry.key, trail)): _with_sources(
+                item, entry.value, trail, (*path, entry.name)
+            )
+            for entry, item in entries
+        }
+    if kind_of_names(path) is None:
+        return value
+    if isinstance(value, list) and isinstance(node, YamlList):
+        return [_with_source(item, each, trail) for item, each in zip(value, node, strict=True)]
+    return _with_source(value, node, trail)
+
+
+def _with_source(name: object, node: YamlNode, trail: tuple[ModuleUse, ...]) -> object:
+    return SourcedText(name, SourceRef(node, None, trail)) if isinstance(name, str) else name
 
 
 def _lower_components(kind: type[Component], fields: Fields, key: str) -> list[Component]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterator, Mapping
+from typing import TYPE_CHECKING, TypeAlias
 
-from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.manager_parameters import HARDWARE, SourcedText, kind_of_names, listed_names
 from linkforge_compile.core.part import FrozenMap
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.names import MODULES_DISAGREE
@@ -13,14 +15,20 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.expand.instance import Instance
 
+Path: TypeAlias = tuple[str, ...]
+"""The names that lead to a parameter: of maps, then its own."""
+
 
 class ManagerMerger:
-    """Merges the entries of modules into that of the file, whose own parameters win; modules may not disagree."""
+    """Merges the entries of modules into that of the file.
+
+    The file's own parameters win; modules may not disagree. Lists of names have those of all modules.
+    """
 
     def __init__(self, robot: Robot, sink: Diagnostics) -> None:
         self._robot = robot
         self._sink = sink
-        self._stated_by: dict[str, tuple[Instance, Controller]] = {}
+        self._stated_by: dict[Path, tuple[Instance, str]] = {}
 
     def move(self, component: Robot, module: Instance) -> None:
         """Move the parameters of a module's manager to that of the file."""
@@ -29,24 +37,63 @@ class ManagerMerger:
             return
         component.controllers = [one for one in component.controllers if one.name != MANAGER]
         own = self._robot.controllers.get(MANAGER)
+        own_paths = {path for path, _ in _leaves(own.parameters)} if own else set()
         if own is None:
             self._robot.add_parts(controllers=[manager])
         else:
-            merged = own.with_fields(parameters=FrozenMap({**manager.parameters, **own.parameters}))
+            self._report_conflicts(own.parameters, manager.parameters, module)
+            merged = own.with_fields(parameters=_merged(own.parameters, manager.parameters))
             self._robot.controllers = [merged if one is own else one for one in self._robot.controllers]
-        for name, value in manager.parameters.items():
-            if own is None or name not in own.parameters:
-                self._stated_by[name] = module, manager
-            elif name in self._stated_by and own.parameters[name] != value:
-                self._report(name, module, manager)
+        for path, _ in _leaves(manager.parameters):
+            if path not in own_paths:
+                self._stated_by[path] = module, path[-1]
 
-    def _report(self, name: str, module: Instance, manager: Controller) -> None:
-        first, first_manager = self._stated_by[name]
-        stated = ((first, first_manager), (module, manager))
-        notes = [
-            Note(f"that of module '{one.name}' is here", its.source.at("parameters", name))
-            for one, its in stated
-            if its.source
-        ]
-        facts = {"first": first.name, "second": module.name, "parameter": name}
-        self._sink.report(MODULES_DISAGREE.at(module.entry, notes=notes, **facts))
+    def _report_conflicts(self, own: Mapping[str, object], other: Mapping[str, object], module: Instance) -> None:
+        values = dict(_leaves(own))
+        for path, value in _leaves(other):
+            if path not in self._stated_by or values.get(path, value) == value or kind_of_names(path):
+                continue
+            first, first_name = self._stated_by[path]
+            notes = [
+                Note(f"that of module '{one.name}' is here", name.source.node.span)
+                for one, name in ((first, first_name), (module, path[-1]))
+                if isinstance(name, SourcedText) and name.source
+            ]
+            facts = {"first": first.name, "second": module.name, "parameter": ".".join(path)}
+            self._sink.report(MODULES_DISAGREE.at(module.entry, notes=notes, **facts))
+
+
+def _merged(own: Mapping[str, object], other: Mapping[str, object]) -> Mapping[str, object]:
+    """Return the parameters of both, where `own` win; hardware in one of its lists is in no other one."""
+    listed = [name for kind, name in listed_names(own) if kind == HARDWARE]
+    return _merged_below(own, other, listed, ())
+
+
+def _merged_below(
+    own: Mapping[str, object], other: Mapping[str, object], listed: Collection[str], path: Path
+) -> Mapping[str, object]:
+    merged = dict(own)  # whose names keep their places
+    for name, value in other.items():
+        stated, inner, kind = own.get(name), (*path, name), kind_of_names((*path, name))
+        if isinstance(stated, Mapping) and isinstance(value, Mapping):
+            merged[name] = _merged_below(stated, value, listed, inner)
+        elif kind:
+            merged[name] = _joined(stated or (), value, listed if kind == HARDWARE else ())
+        elif stated is None:
+            merged[name] = value
+    return FrozenMap(merged)
+
+
+def _joined(own: object, other: object, listed: Collection[str]) -> object:
+    """Return the names of both lists, without those of the other that are listed; `own` where one is no list."""
+    if not (isinstance(own, tuple) and isinstance(other, tuple)):
+        return own or other
+    return (*own, *(name for name in other if name not in own and name not in listed))
+
+
+def _leaves(parameters: Mapping[str, object], path: Path = ()) -> Iterator[tuple[Path, object]]:
+    for name, value in parameters.items():
+        if isinstance(value, Mapping):
+            yield from _leaves(value, (*path, name))
+        else:
+            yield (*path, name), value

@@ -6,7 +6,7 @@ import gc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.meshes import MeshError, MeshFault, solid_in
+from linkforge_compile.core.meshes import MAX_BYTES, MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.physics import (
@@ -34,8 +34,6 @@ from linkforge_compile.syntax.nodes import YamlScalar
 
 if TYPE_CHECKING:
     from linkforge_compile.core.physics import Solid
-
-MAX_BYTES = 128 * 1024 * 1024
 
 _MAX_WIDTH = 100.0  # [m]
 

@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
+from linkforge_compile.core.models.manager_parameters import SourcedText
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.part import FreePart
@@ -239,10 +240,15 @@ def _parameters(robot: Robot) -> Iterator[tuple[SourceRef | None, str, FreePart]
 
 
 def _texts_of_controllers(robot: Robot) -> Iterator[PassthroughText]:
-    """Yield the texts among the parameters of controllers, and their names: those of gains are names of joints."""
+    """Yield the texts among the parameters of controllers, and their names: those of gains are names of joints.
+
+    The names in the parameters of the manager take the prefix, or are no names of joints.
+    """
     for controller in robot.controllers:
         if controller.source:
             for path, text in _texts_in_data(controller.parameters, "parameters"):
+                if isinstance(text, SourcedText):
+                    continue
                 yield PassthroughText(text, controller.source.at(*path), _key_of(path))
 
 

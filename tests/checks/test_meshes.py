@@ -217,6 +217,45 @@ def test_each_file_is_looked_at_once(meshes: Path, monkeypatch: pytest.MonkeyPat
     assert len(looks) == 1
 
 
+@pytest.mark.parametrize(
+    ("packages", "file", "is_reported"),
+    [
+        ("packages: {arm_description: .}\n", "a.stl", True),
+        ("packages: {arm_description: .}\n", "gone.stl", False),
+        ("packages: {hand: .}\n", "a.stl", False),
+        ("", "a.stl", False),
+    ],
+)
+def test_a_misspelt_package_is_reported_where_the_declared_one_has_the_file(
+    packages: str, file: str, is_reported: bool, tmp_path: Path
+):
+    (tmp_path / "a.stl").write_bytes(strip(2, 0.1))
+    links = f"links: {{a: {{visual: {{mesh: package://arm_descripton/{file}}}, collision: visual}}}}\n"
+    (tmp_path / "r.robot.yaml").write_text(f"linkforge: 1\nname: r\n{packages}{links}")
+    codes = [one.code.id for one in compile_file(tmp_path / "r.robot.yaml").diagnostics]
+    assert codes == ["LF6026"] * is_reported
+
+
+def test_the_package_of_the_spec_itself_is_offered_and_all_meshes_are_one_report(tmp_path: Path):
+    package = tmp_path / "arm_description"
+    (package / "robots").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>arm_description</name></package>")
+    names = [f"m{number}.stl" for number in range(11)]
+    for name in names:
+        (package / name).write_bytes(strip(2, 0.1))
+    shapes = ", ".join(f"{{mesh: package://arm_descripton/{name}}}" for name in names)
+    (package / "robots" / "r.robot.yaml").write_text(f"linkforge: 1\nname: r\nlinks: {{a: {{visual: [{shapes}]}}}}\n")
+    (misspelt,) = compile_file(package / "robots" / "r.robot.yaml").diagnostics
+    assert misspelt.message == (
+        "there is no package 'arm_descripton', which mesh 'package://arm_descripton/m0.stl' names; "
+        "did you mean 'arm_description'?"
+    )
+    assert [note.message for note in misspelt.notes[-2:]] == [
+        "mesh 'package://arm_descripton/m8.stl' is in it, too",
+        "and 2 more",
+    ]
+
+
 def test_packages_of_the_command_line_come_before_those_of_spec_and_modules(tmp_path: Path):
     for name in ("given", "declared", "of_module"):
         (tmp_path / name).mkdir()

@@ -199,6 +199,19 @@ def test_each_format_is_installed_in_its_folder(pendulum: Path, installed: list[
     assert dict(found) == misplaced
 
 
+@pytest.mark.parametrize(
+    ("folder", "hint"),
+    [("urfd=share", "; did you mean 'urdf'?"), ("a=b", "; there are urdf, srdf"), ("=b", "; there are urdf, srdf")],
+)
+def test_an_unknown_format_of_installed_in_is_refused(pendulum: Path, folder: str, hint: str):
+    words = ("compile", "swing.robot.yaml", "-o", "build/", "--installed-in")
+    run = linkforge(*words, folder, cwd=pendulum)
+    assert run.returncode == 2
+    assert f"--installed-in: there is no format '{folder.partition('=')[0]}'{hint}" in run.stderr
+    assert f"write './{folder}'" in run.stderr
+    assert linkforge(*words, f"./{folder}", cwd=pendulum).returncode == 0
+
+
 def test_meshes_of_a_spec_on_standard_input_are_looked_for_from_the_output_folder(pendulum: Path):
     """LF7006."""
     (pendulum / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))
@@ -524,6 +537,14 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
             "--gazebo is an option of urdf or moveit, found sdf; add --format urdf, or leave it out",
         ),
         (("watch", "swing.robot.yaml", "-o", "a.mjcf", "--nested"), "--nested is an option of sdf, found mjcf"),
+        (
+            ("check", "swing.robot.yaml", "--for", "mjcf", "--nested"),
+            "--nested is an option of sdf, found mjcf; add --for sdf, or leave it out",
+        ),
+        (
+            ("check", "swing.robot.yaml", "--base", "free"),
+            "--base is an option of mjcf, found urdf and srdf; add --for",
+        ),
         (("check", "--format", "json", "--diagnostics", "json"), "may be given once"),
         (("schema", "-o", "a.json", "-o", "b.json"), "argument -o/--output: may be given once"),
         (("init", "arm", "--dir", "a", "--dir", "b"), "argument --dir: may be given once, found 'a' and 'b'"),

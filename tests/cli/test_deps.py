@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile import compile_file
 from linkforge_compile.cli.main import main
 from linkforge_compile.cli.output import refuse_to_replace
 from linkforge_compile.cli.targets import name_of
@@ -310,6 +311,35 @@ def test_an_mjcf_depends_on_its_meshes(
     found = json.loads(capfd.readouterr().out)
     assert (str(tmp_path / "here.stl") in found["files"]) == is_listed
     assert (str(tmp_path / "gone.stl") in found["unread"]) == is_listed
+
+
+TEXTURED = """\
+linkforge: 1
+name: arm
+materials: {rust: {texture: package://arm/rust.png}, moss: {texture: moss.png}, ice: {texture: package://far/ice.png}}
+links:
+  base:
+    visual:
+      - {mesh: package://arm/base.stl, material: rust}
+      - {box: [1, 1, 1], material: moss}
+      - {box: [1, 1, 1], material: ice}
+"""
+
+
+@pytest.mark.parametrize("is_file", [True, False])
+def test_an_sdf_with_files_depends_on_its_meshes_and_textures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], is_file: bool
+):
+    """What a missing package would contain could be anywhere, and an SDF with `model://` is the same without files."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "package.xml").write_text("<package><name>arm</name></package>")
+    (tmp_path / "arm.robot.yaml").write_text(TEXTURED)
+    (tmp_path / "rust.png").write_bytes(b"")
+    compilation = compile_file("arm.robot.yaml", formats=("sdf",), options={"meshes": "file"} if is_file else {})
+    assert list(compilation.files[1:]) == ([tmp_path / "rust.png"] if is_file else [])
+    assert list(compilation.unread) == ([tmp_path / "base.stl", tmp_path / "moss.png"] if is_file else [])
+    assert main(["compile", "arm.robot.yaml", "-o", "arm.sdf", "--meshes", "file", "--depfile", "-"]) == 0
+    assert "rust.png" in capfd.readouterr().out
 
 
 def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):

@@ -125,6 +125,26 @@ def test_parts_of_two_uses_of_a_module_are_one_group(tmp_path: Path):
     assert lines_of(powerless) == [5, 5]  # the joint, and where the first module is used
 
 
+def test_mimics_of_fixed_joints_in_two_uses_are_one_group_without_those_that_a_comment_ignores(tmp_path: Path):
+    joints = (
+        "  rigid: {type: fixed, parent: base, child: a}",
+        "  one: {type: continuous, parent: base, child: b, axis: z, mimic: {joint: rigid}}",
+        "  # linkforge: ignore LF5502",
+        "  two: {type: continuous, parent: base, child: c, axis: z, mimic: {joint: rigid}}",
+        "  three: {type: continuous, parent: base, child: d, axis: z, mimic: {joint: rigid}}",
+    )
+    hand = ("linkforge: 1", "name: hand", "links: {base: , a: , b: , c: , d: }", "joints:", *joints)
+    (tmp_path / "hand.robot.yaml").write_text("\n".join(hand))
+    uses = "".join(f"  {side}: {{use: hand.robot.yaml, parent: torso}}\n" for side in ("left", "right"))
+    (tmp_path / "cell.robot.yaml").write_text(f"linkforge: 1\nname: cell\nlinks: {{torso: }}\nmodules:\n{uses}")
+    (mimics,) = check_file(tmp_path / "cell.robot.yaml").diagnostics
+    assert mimics.message == (
+        "continuous joint 'left_one' mimics fixed joint 'left_rigid', but both must have one axis; "
+        "the same for 'right_one', 'left_three' and 'right_three'"
+    )
+    assert lines_of(mimics) == [6, 5, 9]  # the joint, where the first module is used, and the other joint
+
+
 def test_a_part_of_all_variants_is_reported_once(tmp_path: Path):
     (tmp_path / "arm.robot.yaml").write_text(WEIGHTLESS)
     run = linkforge("check", "--all-variants", "--format", "json", "arm.robot.yaml", cwd=tmp_path)

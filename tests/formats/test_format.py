@@ -95,6 +95,19 @@ sensors:
 """
 
 
+LOSSY = """\
+linkforge: 1
+name: arm
+links:
+  base:
+  rod: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+  cap: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 1}}}
+joints:
+  one: {type: continuous, parent: base, child: cap, axis: z, limits: {effort: 5, velocity: 3}}
+  two: {type: fixed, parent: cap, child: rod}
+"""
+
+
 def codes(words: list[str], capsys: pytest.CaptureFixture[str]) -> set[str]:
     assert main(words) == 0
     return set(re.findall(r"\[(LF[0-9]+)\]", capsys.readouterr().err))
@@ -129,6 +142,34 @@ def test_strict_fails_on_what_it_cannot_hold_and_writes_nothing(tmp_path: Path, 
     Path("arm.robot.yaml").write_text(SPEC.replace("  elbow:", "  # linkforge: ignore LF7999\n  elbow:"))
     assert main(words) == 0
     assert (tmp_path / "a.joints").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("compile", "arm.robot.yaml", "-o", "arm.mjcf"),
+        ("compile", "arm.robot.yaml", "-o", "arm.mjcf", "--depfile", "arm.d"),  # as CMake calls it
+        ("check", "arm.robot.yaml", "--for", "mjcf"),
+    ],
+)
+def test_losses_of_a_format_are_counted_while_there_are_errors(
+    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+):
+    Path("arm.robot.yaml").write_text(LOSSY.replace("child: rod", "child: rood"))
+    assert main([*words]) == 1
+    report = capsys.readouterr().err
+    assert "did you mean 'rod'? [LF4102]" in report
+    assert "LF7411" not in report
+    assert "1 warning, 1 note of formats not shown while there are errors\n" in report
+    assert main([*words, "--quiet"]) == 1
+    assert "not shown" not in capsys.readouterr().err
+    assert main([*words, "--strict"]) == 1
+    assert "error: MuJoCo does not limit velocities" in capsys.readouterr().err
+    Path("arm.robot.yaml").write_text(LOSSY)
+    assert main([*words]) == 0
+    report = capsys.readouterr().err
+    assert "warning: MuJoCo does not limit velocities" in report
+    assert "not shown" not in report
 
 
 def test_strict_leaves_warnings_about_the_robot_as_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]):

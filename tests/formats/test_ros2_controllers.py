@@ -421,10 +421,72 @@ def test_a_list_that_ros_refuses_is_one_error():
     assert [one[:6] for one in found] == ["LF7623"]
 
 
+POSITIONS = "position_controllers/JointGroupPositionController"
+FORWARD = "forward_command_controller/ForwardCommandController"
+
+
+@pytest.mark.parametrize(
+    ("in_parameters", "in_fields"),
+    [
+        (f"type: {POSITIONS}, parameters: {{joints: [elbow, left]}}", f"type: {POSITIONS}, joints: [elbow, left]"),
+        (
+            f"type: {FORWARD}, group: arm, parameters: {{interface_name: effort}}",
+            f"type: {FORWARD}, group: arm, command_interfaces: [effort]",
+        ),
+        (
+            "type: effort_controllers/GripperActionController, parameters: {joint: elbow, max_effort: 1}",
+            "type: effort_controllers/GripperActionController, joints: [elbow], parameters: {max_effort: 1}",
+        ),
+        (
+            f"type: {TRAJECTORY}, group: arm, parameters: {{state_interfaces: [position, effort]}}",
+            f"type: {TRAJECTORY}, group: arm, state_interfaces: [position, effort]",
+        ),
+    ],
+)
+def test_a_parameter_of_a_field_is_checked_as_that_field(in_parameters: str, in_fields: str):
+    start = f"{ROBOT}{ARM_GROUP}controllers: {{o: {{type: a/B}}, c: "
+    found = reported(f"{start}{{{in_parameters}}}}}\n")
+    assert found == reported(f"{start}{{{in_fields}}}}}\n")
+    assert found
+    assert controller("c", f"{start}{{{in_parameters}}}}}\n") == controller("c", f"{start}{{{in_fields}}}}}\n")
+
+
 def test_joints_in_parameters_are_commanded():
-    type_ = "position_controllers/JointGroupPositionController"
-    own = f"{{type: {type_}, parameters: {{joints: [shoulder, elbow, left, right]}}}}"
-    assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == []
+    own = f"{{type: {POSITIONS}, parameters: {{joints: [shoulder, elbow]}}}}"
+    assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == [
+        "LF7607 no controller commands joint 'left'; the same for 'right'"
+    ]
+
+
+def test_names_in_parameters_of_fields_are_checked_at_their_place():
+    imu = "type: imu_sensor_broadcaster/IMUSensorBroadcaster, parameters: {sensor_name: imv, frame_id: uper}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers:\n  i: {{{imu}}}\n"
+    text += f"  j: {{type: {POSITIONS}, parameters: {{joints: [shoulder, elbo]}}}}\n"
+    compilation = compile_text(text, formats=("ros2_controllers",))
+    assert [(one.code.id, one.span.text) for one in compilation.diagnostics if one.span] == [
+        ("LF4110", "imv"),
+        ("LF4102", "uper"),
+        ("LF4103", "elbo"),
+    ]
+
+
+@pytest.mark.parametrize(("name", "codes"), [("elbow", ["LF5704"]), ("$(joint('elbow'))", []), ("elbo", ["LF4103"])])
+def test_a_name_in_parameters_of_a_field_is_one_fault_under_a_prefix(tmp_path: Path, name: str, codes: list[str]):
+    own = f"controllers: {{c: {{type: {POSITIONS}, parameters: {{joints: [{name}]}}}}}}\n"
+    (tmp_path / "arm.robot.yaml").write_text(f"linkforge: 1\nname: arm\n{ROBOT}{own}")
+    module = "{use: arm.robot.yaml, parent: table, prefix: l_}"
+    both = tmp_path / "both.robot.yaml"
+    both.write_text(f"linkforge: 1\nname: both\nlinks: {{table: }}\nmodules: {{arm: {module}}}\n")
+    diagnostics = compile_file(both, formats=("ros2_controllers",)).diagnostics
+    assert [one.code.id for one in diagnostics if one.code.id != "LF7607"] == codes
+
+
+def test_a_misspelled_class_and_a_wrong_group_are_reported_in_one_run():
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}"
+    other = f"{{type: {POSITIONS}, joints: [$(joint('elbow'))]}}"
+    text += f"controllers: {{c: {{type: {TRAJECTORY}s, group: amr}}, d: {other}}}\n"
+    found = compile_text(text, formats=("ros2_controllers",)).diagnostics
+    assert sorted(one.code.id for one in found) == ["LF3091", "LF4104", "LF7613"]
 
 
 def test_a_broadcaster_commands_no_joint():
@@ -552,6 +614,115 @@ def test_each_line_leads_to_its_place_in_the_spec():
     assert shown["type: a/B"] == "a/B"
     assert shown["p: 4"] == "4"
     assert shown["update_rate: 500"] == "500"
+
+
+ARM_WITH_MANAGER = f"""linkforge: 1
+name: arm
+{ROBOT}
+controllers:
+  hold: {{type: a/B}}
+  move: {{type: a/B, joints: [elbow]}}
+  controller_manager:
+    parameters:
+      update_rate: 500
+      hardware_components_initial_state: {{inactive: [all], shutdown_on_initial_state_failure: false}}
+      move: {{type: a/B, fallback_controllers: [hold]}}
+      later.type: c/D
+      later.fallback_controllers: [hold]
+"""
+
+
+def two_arms(folder: Path, own: str = "", of_right: str = "") -> Path:
+    (folder / "arm.robot.yaml").write_text(ARM_WITH_MANAGER)
+    (folder / "right.robot.yaml").write_text(of_right or ARM_WITH_MANAGER)
+    both = folder / "both.robot.yaml"
+    both.write_text(
+        "linkforge: 1\nname: both\nlinks: {table: }\nmodules:\n"
+        "  left: {use: arm.robot.yaml, parent: table, prefix: l_}\n"
+        f"  right: {{use: right.robot.yaml, parent: table, prefix: r_}}\n{own}"
+    )
+    return both
+
+
+def manager_of(spec: Path) -> dict[str, object]:
+    return nodes_in(ROS2_CONTROLLERS.render(compile_file(spec).result(), Rendering())[0].text)["controller_manager"]
+
+
+def test_names_in_parameters_of_the_manager_take_the_prefix(tmp_path: Path):
+    compilation = compile_file(two_arms(tmp_path))
+    assert not [one for one in compilation.diagnostics if one.code.id in {"LF4112", "LF5704"}]
+    assert manager_of(tmp_path / "both.robot.yaml") == {
+        "update_rate": 500,
+        "hardware_components_initial_state.inactive": ["l_all", "r_all"],
+        "hardware_components_initial_state.shutdown_on_initial_state_failure": False,
+        "l_hold.type": "a/B",
+        "l_move.type": "a/B",
+        "l_move.fallback_controllers": ["l_hold"],
+        "l_later.type": "c/D",
+        "l_later.fallback_controllers": ["l_hold"],
+        "r_hold.type": "a/B",
+        "r_move.type": "a/B",
+        "r_move.fallback_controllers": ["r_hold"],
+        "r_later.type": "c/D",
+        "r_later.fallback_controllers": ["r_hold"],
+    }
+
+
+def test_the_file_that_uses_modules_states_the_initial_state_of_their_hardware(tmp_path: Path):
+    states = "{unconfigured: [l_all], shutdown_on_initial_state_failure: true}"
+    parameters = f"{{hardware_components_initial_state: {states}}}"
+    spec = two_arms(tmp_path, own=f"controllers: {{controller_manager: {{parameters: {parameters}}}}}\n")
+    manager = manager_of(spec)
+    start = "hardware_components_initial_state"
+    assert manager[f"{start}.unconfigured"] == ["l_all"]
+    assert manager[f"{start}.inactive"] == ["r_all"]
+    assert manager[f"{start}.shutdown_on_initial_state_failure"] is True
+
+
+def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
+    other = ARM_WITH_MANAGER.replace("failure: false", "failure: true")
+    (found,) = compile_file(two_arms(tmp_path, of_right=other)).diagnostics
+    assert found.code.id == "LF4111"
+    assert "'hardware_components_initial_state.shutdown_on_initial_state_failure'" in found.message
+    assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
+
+
+def test_parameters_of_merged_managers_lead_to_the_files_of_their_modules(tmp_path: Path):
+    other = ARM_WITH_MANAGER.replace("update_rate: 500", "handle_exceptions: true")
+    robot = compile_file(two_arms(tmp_path, of_right=other)).result()
+    document = ROS2_CONTROLLERS.render(robot, Rendering(has_map=True))[0]
+    assert document.map is not None
+    places = {line.strip(): document.map.at(at) for at, line in enumerate(document.text.splitlines(), start=1)}
+    found = {line: place.span.file.name for line, place in places.items() if place}
+    assert found["update_rate: 500"].endswith("arm.robot.yaml")
+    assert found["handle_exceptions: true"].endswith("right.robot.yaml")
+    assert found["r_later.type: c/D"].endswith("right.robot.yaml")
+
+
+@pytest.mark.parametrize("parameters", ["own: {type: c/D}", "own.type: c/D"])
+def test_the_manager_has_no_other_class_of_a_controller(parameters: str):
+    manager = f"controller_manager: {{parameters: {{{parameters}}}}}"
+    assert reported(f"{ROBOT}controllers: {{own: {{type: a/B}}, {manager}}}\n") == [
+        "LF7621 controller 'own' has 'type' in `parameters` of 'controller_manager', and `type` for the same; remove "
+        "one of them"
+    ]
+
+
+@pytest.mark.parametrize(
+    "parameters", ["own: {type: a/B, params_file: a.yaml}", "own.type: a/B, own.params_file: a.yaml"]
+)
+def test_a_class_that_the_manager_has_as_well_is_written_once(parameters: str):
+    text = f"{ROBOT}controllers: {{own: {{type: a/B}}, controller_manager: {{parameters: {{{parameters}}}}}}}\n"
+    assert reported(text) == []
+    manager = nodes_in(rendered(text))["controller_manager"]
+    assert manager == {"update_rate": 100, "own.type": "a/B", "own.params_file": "a.yaml"}
+
+
+def test_a_controller_that_the_manager_loads_is_no_default_controller():
+    manager = "controller_manager: {parameters: {arm_controller: {type: a/B, params_file: arm.yaml}}}"
+    nodes = nodes_in(rendered(f"{ROBOT}{ARM_GROUP}controllers: {{{manager}}}\n"))
+    assert nodes["controller_manager"]["arm_controller.type"] == "a/B"
+    assert "arm_controller" not in nodes
 
 
 def test_names_in_parameters_are_reported_under_a_prefix(tmp_path: Path):

@@ -172,7 +172,7 @@ def _parse_request(
     templates = None if arguments.template is None else _template_folder(arguments)
     targets = _targets(_name(spec, variant, arguments), templates, arguments)
     if not targets.are_documents:  # templates of documents see every format
-        refuse_options_of_other_formats(arguments, targets.formats)
+        refuse_options_of_other_formats(arguments, targets.formats, "--format")
     if arguments.source_map:
         targets.require_files("--source-map", "writes its map beside the output")
         if templates is not None:

@@ -32,9 +32,9 @@ if TYPE_CHECKING:
 FORMATS = ("make", "json")
 
 _EXAMPLES = """\
-It lists the spec, the files that it includes and uses, files of values, xacro files, and meshes from which an inertia
-is computed; and linkforge's own templates of the format, and its version. The format is URDF, unless -o or --for name
-other files.
+It lists the spec, the files that it includes and uses, files of values, xacro files, meshes from which an inertia is
+computed, and the meshes of an MJCF; and linkforge's own templates of the format, and its version. The format is URDF,
+unless -o or --for name other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...

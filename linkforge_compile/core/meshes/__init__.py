@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     Triangles: TypeAlias = NDArray[np.float64]  # shape (triangles, 3 corners, 3 coordinates)
 
 __all__ = [
+    "MAX_BYTES",
     "MAX_NODES",
     "MAX_TRIANGLES",
     "MeshError",
@@ -40,6 +41,9 @@ __all__ = [
 
 MAX_TRIANGLES = 400_000
 """A mesh of this size takes less than ten seconds and 512 MB."""
+
+MAX_BYTES = 128 * 1024 * 1024
+"""The largest file of a mesh that is read."""
 
 MAX_NODES = 100_000
 """The nodes of a scene of COLLADA: a file of few lines may nest them without end."""

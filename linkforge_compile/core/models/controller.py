@@ -5,11 +5,28 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 from linkforge_compile.core.fields import Data, Name, Reference, Text
+from linkforge_compile.core.models.manager_parameters import with_prefixed_names
 from linkforge_compile.core.naming import require_not_blank
 from linkforge_compile.core.part import Element, FrozenMap, extras_last
 
 MANAGER = "controller_manager"
 """The name of the entry with the parameters of the manager itself, which has no type."""
+
+JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
+"""The fields of a controller with names of joints."""
+
+PARAMETERS_OF_FIELDS: Mapping[str, str] = FrozenMap(
+    {
+        "joints": "joints",
+        "left_wheels": "left_wheel_names",
+        "right_wheels": "right_wheel_names",
+        "sensor": "sensor_name",
+        "frame": "frame_id",
+        "command_interfaces": "command_interfaces",
+        "state_interfaces": "state_interfaces",
+    }
+)
+"""The usual names of the parameters that the fields of a controller become, by field."""
 
 
 @extras_last
@@ -20,7 +37,7 @@ class Controller(Element):
     `joints` are those that it commands or reads, for a `group` without them the joints of the group. `left_wheels` and
     `right_wheels` are those of a differential drive. `sensor` is a sensor of ros2_control, whose values are in `frame`.
     `parameters` are all others: numbers, booleans, texts, and lists and maps of them. `type` is None for the
-    controller manager alone, whose name takes no prefix.
+    controller manager alone, whose name takes no prefix; the names of hardware and controllers in its parameters do.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name.
@@ -46,5 +63,6 @@ class Controller(Element):
 
     def with_prefix(self, prefix: str) -> Self:
         if self.name == MANAGER:
-            return self
+            parameters = with_prefixed_names(self.parameters, prefix)
+            return self if parameters == self.parameters else self.with_fields(parameters=parameters)
         return super().with_prefix(prefix)

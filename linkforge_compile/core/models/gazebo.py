@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Self
 
-from linkforge_compile.core.exceptions import RobotValidationError
+from linkforge_compile.core.exceptions import FieldPath, RobotValidationError
 from linkforge_compile.core.fields import (
     NOT_NEGATIVE,
     ZERO_TO_ONE,
@@ -108,6 +108,12 @@ ELEMENT_TAGS = tags_with_text(GazeboElement)
 
 KEEP_FIXED_JOINT = ("preserveFixedJoint", "disableFixedJointLumping")
 """The tags by which a block about a fixed joint keeps Gazebo from merging the links on its two sides into one."""
+
+
+def property_path(block: GazeboElement, tag: str) -> FieldPath:
+    """Return where a block has a property: one that is a key of the language is in the block itself."""
+    is_key = block.source is not None and block.source.node.child(tag) is not None
+    return (tag,) if is_key else ("properties", tag)
 
 
 def keeps_fixed_joint(blocks: Iterable[GazeboElement]) -> bool:

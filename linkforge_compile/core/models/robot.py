@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from copy import deepcopy
 from itertools import combinations
+from pathlib import Path
 from typing import Any, Self
 
 from linkforge_compile.core.constants import SRDF_REASON_ADJACENT
@@ -42,6 +43,12 @@ class Robot(RobotParts):
     the robot as it was and raises RobotValidationError: DUPLICATE_NAME for a name that is taken, NOT_FOUND for
     a link, joint or group that the addition refers to and the robot lacks.
     """
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the file in which it was written, where relative paths start; None without a file."""
+        path = self.source.span.file.path if self.source else None
+        return path.parent if path else None
 
     def add_link(self, link: Link, overwrite: bool = False) -> None:
         """Add a link; with `overwrite` it replaces one of the same name."""

@@ -28,3 +28,6 @@ REGISTER: dict[str, Code] = {
 
 OUTPUT_CODES = "LF7"
 """How the codes about outputs begin; which of them a compile reports depends on its formats."""
+
+LOSS_CODES = ("LF74", "LF75", "LF76")
+"""How the codes about what a format other than URDF and SRDF cannot hold begin."""

@@ -105,7 +105,13 @@ SEVERAL_ROOTS = Code(
 
 # LF55xx: how far joints go, and joints that follow others
 MIMIC_CYCLE = Code("LF5501", _E, "joints mimic each other in a cycle: {path}")
-MIMIC_FREEDOM = Code("LF5502", _W, "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis")
+MIMIC_FREEDOM = Code(
+    "LF5502",
+    _W,
+    "{type} joint '{joint}' mimics {led} joint '{leader}', but both must have one axis",
+    subject="joint",
+    grouped_by=("type", "led"),
+)
 NO_RANGE = Code(
     "LF5503",
     _W,

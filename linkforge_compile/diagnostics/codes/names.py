@@ -33,6 +33,7 @@ MODULES_DISAGREE = Code(
     "modules '{first}' and '{second}' have different values of '{parameter}' in 'controller_manager'; "
     "write the right one in `controllers` of this file",
 )
+UNKNOWN_OF_MANAGER = Code("LF4112", _W, "no {kind} named '{name}' for the controller manager", _VALUE)
 NAME_TWICE = Code("LF4160", _W, "'{name}' is listed twice in '{field}' of {owner}; remove one")
 OWN_ATTRIBUTE_STAYS = Code(
     "LF4161", _W, "{what} is '{theirs}' in module '{module}' and '{ours}' here; this file's value is kept"

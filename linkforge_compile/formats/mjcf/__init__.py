@@ -49,9 +49,9 @@ class Mjcf(TemplateFormat):
         return mesh_assets(robot).folder is None
 
     def sought_files(self, robot: Robot, options: Options) -> tuple[Path, ...]:
-        from linkforge_compile.formats.mesh_paths import mesh_files_of
+        from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files
 
-        return mesh_files_of(robot)
+        return places_of_files(robot, mesh_paths(robot))
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.mjcf.view import robot_view

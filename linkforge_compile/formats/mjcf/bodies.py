@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from linkforge_compile.core.constants import MIN_REASONABLE_INERTIA
+from linkforge_compile.core.constants import LEAST_MASS, MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
 from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, Visual
 from linkforge_compile.core.physics import rotated
@@ -22,9 +22,6 @@ from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-
-LEAST_MASS = 1e-9
-"""The mass of a moving body that has none [kg]: small enough not to matter."""
 
 _OTHER_FRICTION = (0.005, 0.0001)
 """MuJoCo's defaults for friction against spinning and rolling [m]."""

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement, property_path
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.formats.losses import Loss, joint_losses
 from linkforge_compile.formats.lost_xml import lost_xml
 from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_of
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
 from linkforge_compile.formats.mjcf.sensors import PLUGINS, sensor_losses
 from linkforge_compile.formats.parts import doubtful_parts_in
-from linkforge_compile.formats.single_axis import SINGLE, leader_of
-from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -26,15 +25,6 @@ _GAZEBO, _TRANSMISSIONS, _GPIOS, _HARDWARE = "settings for Gazebo", "transmissio
 
 OF_OTHER_PROGRAMS = (_GAZEBO, _TRANSMISSIONS, _GPIOS, _HARDWARE, PLUGINS)
 """The kinds of parts that only other programs than MuJoCo read."""
-
-
-class Loss(NamedTuple):
-    """What kind of part is left out, the name of the part that has it, and its place."""
-
-    parts: str
-    name: str
-    source: SourceRef | None
-    path: Sequence[str | int] = ()
 
 
 def lost_parts(robot: Robot) -> Iterator[Loss]:
@@ -58,31 +48,15 @@ def _of_gazebo(block: GazeboElement, robot: Robot) -> Iterator[Loss]:
     friction = ("mu1", "mu2") if block.properties.get("mu1") == block.properties.get("mu2") else ("mu1",)
     lost = [tag for tag in block.properties if tag not in (*KEEP_FIXED_JOINT, *friction)]
     if lost or replace(block, properties={}) != GazeboElement(block.reference):
-        yield Loss(_GAZEBO, block.reference or robot.name, block.source, _path(block, lost))
-
-
-def _path(block: GazeboElement, tags: Sequence[str]) -> Sequence[str]:
-    """Return where the first tag is: those that are keys of the language are in the block itself."""
-    if not tags:
-        return ()
-    is_own = block.source is not None and block.source.node.child(tags[0]) is not None
-    return (tags[0],) if is_own else ("properties", tags[0])
+        path = property_path(block, lost[0]) if lost else ()
+        yield Loss(_GAZEBO, block.reference or robot.name, block.source, path)
 
 
 def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
-    if joint.safety_controller:
-        yield Loss("safety controllers", joint.name, joint.source, ("safety_controller",))
-    if joint.calibration:
-        yield Loss("calibrations", joint.name, joint.source, ("calibration",))
-    if joint.limits and (joint.limits.acceleration or joint.limits.deceleration or joint.limits.jerk):
-        yield Loss("limits of acceleration and jerk", joint.name, joint.limits.source or joint.source)
-    if joint.mimic and robot.has_joint(joint.mimic.joint) and leader_of(joint, robot) is None:
-        yield Loss("mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source)
-    if joint.type not in (*SINGLE, JointType.FIXED):
-        if joint.limits:
-            yield Loss(f"limits of {joint.type} joints", joint.name, joint.limits.source or joint.source)
-        if joint.dynamics and (joint.dynamics.damping or joint.dynamics.friction):
-            yield Loss(f"dynamics of {joint.type} joints", joint.name, joint.dynamics.source or joint.source)
+    limits = joint.limits
+    if limits and (limits.acceleration or limits.deceleration or limits.jerk):
+        yield Loss("limits of acceleration and jerk", joint.name, limits.source or joint.source)
+    yield from joint_losses(joint, robot, loose=(JointType.FLOATING, JointType.PLANAR))
 
 
 def _of_links(robot: Robot) -> Iterator[Loss]:
@@ -113,7 +87,7 @@ def _of_hardware(robot: Robot) -> Iterator[Loss]:
             if joint.name not in driven:
                 yield from _undriven(hardware, joint)
             for state in map(Interface.of, hardware.state_interfaces):
-                is_kept = state == "position" and joint.type in SINGLE
+                is_kept = state == "position" and joint.type in SINGLE_AXIS
                 if number_of(state.parameters.get(INITIAL_VALUE)) and not is_kept:
                     yield Loss(f"initial {state}", hardware.name, state.source or hardware.source)
 
@@ -122,7 +96,7 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
     names = [str(Interface.of(name)) for name in hardware.command_interfaces]
     if not names:
         return
-    if joint.type not in SINGLE:
+    if joint.type not in SINGLE_AXIS:
         what = f"actuators of {joint.type} joints"
     elif joint.mimic and any(name in INTERFACES for name in names):
         what = "actuators of joints that mimic others"

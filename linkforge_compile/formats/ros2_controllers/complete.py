@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER, Controller
+from linkforge_compile.core.models.controller_kinds import FORWARD, GRIPPER, STATES, TRAJECTORY, lift_parameters
+from linkforge_compile.core.models.manager_parameters import loaded_class
 from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
-from linkforge_compile.formats.ros2_controllers.kinds import FORWARD, GRIPPER, JOINT_FIELDS, STATES, TRAJECTORY
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -20,12 +21,16 @@ _STATES = ("position", "velocity")
 def complete_controllers(robot: Robot) -> tuple[Controller, ...]:
     """Return the controllers of a robot, without the manager, each with its joints and interfaces.
 
-    A robot that states none has those of its planning groups.
+    A robot that states none has those of its planning groups, except those whose class the manager states.
     """
+    manager = robot.controllers.get(MANAGER)
+    loaded = manager.parameters if manager else {}
     hardware, groups = commanded_joints(robot), joints_by_group(robot)
-    stated = [one for one in robot.controllers if one.name != MANAGER] or list(_default_controllers(robot))
+    stated = [one for one in robot.controllers if one.name != MANAGER] or [
+        one for one in _default_controllers(robot) if not loaded_class(loaded, one.name)
+    ]
     completed = []
-    for one in stated:
+    for one in map(lift_parameters, stated):
         members = (joint.name for joint in groups.get(one.group or "", ()))
         joints = one.joints or tuple(name for name in members if name in hardware)
         completed.append(_with_interfaces(one.with_fields(joints=joints), hardware))

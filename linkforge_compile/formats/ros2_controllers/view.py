@@ -6,16 +6,17 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
+from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.ros2_controllers.complete import complete_controllers
-from linkforge_compile.formats.ros2_controllers.kinds import kind_of
 from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, type_of
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
+    from linkforge_compile.core.models.controller_kinds import Kind
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.ros2_controllers.kinds import Kind
     from linkforge_compile.formats.ros2_controllers.parameters import Type
     from linkforge_compile.source import SourceRef
 
@@ -24,22 +25,30 @@ UPDATE_RATE = 100
 
 
 def controllers_view(robot: Robot) -> View:
-    """Return what templates see: the parameters of the manager, and the controllers with `type` and `parameters`."""
+    """Return what templates see: the parameters of the manager, and the controllers with `type` and `parameters`.
+
+    What the manager has of a controller is in `manager_parameters` of that one, without its type.
+    """
     manager = robot.controllers.get(MANAGER)
     stated = typed_parameters(manager) if manager else {}
+    controllers = [_view(one, stated.get(one.name)) for one in complete_controllers(robot)]
+    elsewhere = {key for one in controllers for key in (one.name, f"{one.name}.type")}
+    own = {key: value for key, value in stated.items() if key not in elsewhere}
     return View(
-        manager=stated if "update_rate" in stated else {"update_rate": UPDATE_RATE, **stated},
-        controllers=[_view(one) for one in complete_controllers(robot)],
+        manager=own if "update_rate" in own else {"update_rate": UPDATE_RATE, **own},
+        controllers=controllers,
     )
 
 
-def _view(controller: Controller) -> View:
+def _view(controller: Controller, of_manager: object) -> View:
+    in_manager = of_manager if isinstance(of_manager, Mapping) else {}
     kind = kind_of(controller.type)
     parameters = {**dict(_of_fields(controller, kind)), **typed_parameters(controller)}
     return View(
         name=placed(controller.name, controller.source),
         type=placed(controller.type or "", controller.source, "type"),
         parameters=parameters,
+        manager_parameters={key: value for key, value in in_manager.items() if key != "type"},
     )
 
 
@@ -50,7 +59,7 @@ def _of_fields(controller: Controller, kind: Kind) -> Iterator[tuple[str, object
         if value:
             is_list = not isinstance(value, str)
             written = value[0] if is_list and field in kind.single else list(value) if is_list else value
-            yield placed(name, controller.source, field), written
+            yield placed(name, controller.source, *path_of_field(controller, field)), written
 
 
 def typed_parameters(controller: Controller) -> dict[str, object]:
@@ -77,9 +86,9 @@ def _placed(values: Mapping[str, object], source: SourceRef | None, *path: str) 
     for name, value in values.items():
         if isinstance(value, Mapping):
             if value:
-                found[placed(name, source, *path, name)] = _placed(value, source, *path, name)
+                found[placed(name, *place_of_parameter(source, *path, name))] = _placed(value, source, *path, name)
         elif value is not None:
-            found[placed(name, source, *path, name)] = _of_one_type(value)
+            found[placed(name, *place_of_parameter(source, *path, name))] = _of_one_type(value)
     return found
 
 

@@ -70,9 +70,11 @@ class Sdf(TemplateFormat):
         return MESHES.value(options) != "file"
 
     def sought_files(self, robot: Robot, options: Options) -> tuple[Path, ...]:
-        from linkforge_compile.formats.mesh_paths import mesh_files_of
+        from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
 
-        return mesh_files_of(robot) if MESHES.value(options) == "file" else ()
+        if MESHES.value(options) != "file":
+            return ()
+        return places_of_files(robot, (*mesh_paths(robot), *texture_paths(robot)))
 
     def root_view(self, robot: Robot, options: Options) -> View:
         from linkforge_compile.formats.sdf.view import robot_view

@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics.codes.formats import (
@@ -16,21 +15,20 @@ from linkforge_compile.diagnostics.codes.formats import (
     MIMIC_OF_ENGINE,
     NO_BODY_IN_SDF,
     NO_MIMIC_IN_SDF,
-    NOT_FOUND_NESTED,
+    NOT_IN_ITS_MODULE,
     NOT_IN_SDF,
     RESERVED_IN_SDF,
     STAYS_A_URI,
     WEIGHTLESS_IN_SDF,
 )
 from linkforge_compile.formats.limits import check_attributes, check_texts
-from linkforge_compile.formats.mesh_paths import reason_not_found
+from linkforge_compile.formats.mesh_paths import mesh_paths, reason_not_found, texture_paths
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.check_names import check_names, is_reserved
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.losses import lost_parts
-from linkforge_compile.formats.sdf.meshes import MeshUris
-from linkforge_compile.formats.sdf.models import ROBOT, Models
+from linkforge_compile.formats.sdf.models import ROBOT, Models, moved_by_gazebo
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
 from linkforge_compile.formats.single_axis import leader_of
 
@@ -98,30 +96,24 @@ _CLASSIC_FILE = re.compile(r"(?:.*/)?libgazebo_\w+\.so")
 
 
 def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
-    """A module has a name that SDF keeps for nothing else, and gz_ros2_control looks into the outermost model alone."""
+    """A module has a name that SDF keeps for nothing else; a joint that gz_ros2_control moves is in no nested model."""
     models = Models(layout, is_nested=True)
     uses = {use.module: use for link in robot.links if link.source for use in link.source.trail}
     for name in dict.fromkeys(model[-1] for model in models.all if model):
         if is_reserved(name):
             yield RESERVED_IN_SDF.at(uses[name], name=name)
-    for hardware in robot.ros2_controls:
-        for joint in hardware.joints if hardware.hardware_plugin.startswith(_OF_GAZEBO) else ():
-            if robot.has_joint(joint.name) and models.of_joint(robot.joints[joint.name]) != ROBOT:
-                yield NOT_FOUND_NESTED.at(joint.source, joint=joint.name)
-
-
-_OF_GAZEBO = ("gz_ros2_control/", "ign_ros2_control/")
+    for joint in moved_by_gazebo(robot):
+        if models.innermost(robot.joints[joint.name]) != ROBOT:
+            yield NOT_IN_ITS_MODULE.at(joint.source, joint=joint.name)
 
 
 def check_files(robot: Robot) -> Iterator[Diagnostic]:
     """A mesh or texture that is not on this machine has no file that an SDF could refer to."""
-    uris = MeshUris(robot, is_resolved=True)
-    for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
-        if isinstance(mesh, Mesh) and "://" in mesh.resource and uris.file(mesh.resource) is None:
+    for mesh, path in mesh_paths(robot):
+        if path is None and "://" in mesh.resource:
             reason = reason_not_found(robot, mesh.resource)
             yield STAYS_A_URI.at(mesh.source, "file", what="mesh", file=mesh.resource, reason=reason)
-    for material in dict.fromkeys(visual.material for link in robot.links for visual in link.visuals):
-        texture = material.texture if material else None
-        if material and texture and "://" in texture and uris.file(texture) is None:
+    for material, texture, path in texture_paths(robot):
+        if path is None and "://" in texture:
             reason = reason_not_found(robot, texture)
             yield STAYS_A_URI.at(material.source, "texture", what="texture", file=texture, reason=reason)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Set
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.formats.losses import Loss, joint_losses
 from linkforge_compile.formats.lost_xml import lost_xml
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.layout import Layout
@@ -20,16 +21,10 @@ from linkforge_compile.formats.sdf.settings import (
     OF_JOINT,
     OF_MODEL,
     replaced_settings,
-    settings_by_reference,
 )
-from linkforge_compile.formats.single_axis import leader_of
-from linkforge_compile.source import SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-
-Loss: TypeAlias = tuple[str, str, SourceRef | None, tuple[str | int, ...]]
-"""What SDF has no place for, the name of the part, and where it was written."""
 
 
 def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
@@ -38,42 +33,27 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
     for joint in robot.joints:
         yield from _of_joint(joint, robot)
     for transmission in robot.transmissions:
-        yield "transmissions", transmission.name, transmission.source, ()
+        yield Loss("transmissions", transmission.name, transmission.source)
     for sensor in robot.sensors:
         above = layout.above.get(sensor.link_name)
         if sensor.type == SensorType.FORCE_TORQUE and not (above and layout.is_joint(above)):
-            yield "force-torque sensors without a joint", sensor.name, sensor.source, ("link",)
+            yield Loss("force-torque sensors without a joint", sensor.name, sensor.source, ("link",))
     yield from _lost_settings(robot, layout)
-    for reference, setting in replaced_settings(robot):
+    for reference, setting in replaced_settings(layout.settings):
         words = f"second <surface>, so no place for the setting '{setting.tag}'"
-        yield words, reference, setting.source, setting.path
+        yield Loss(words, reference, setting.source, setting.path)
     for block in robot.gazebo_elements:
         if block.reference is not None:
             for plugin in block.plugins:
-                yield "plugins of links and joints", plugin.name, plugin.source, ()
+                yield Loss("plugins of links and joints", plugin.name, plugin.source)
     yield from _lost_xml(robot)
 
 
 def _of_joint(joint: Joint, robot: Robot) -> Iterator[Loss]:
     limits = joint.limits
     if limits and any(value is not None for value in (limits.acceleration, limits.deceleration, limits.jerk)):
-        yield "limits of acceleration, deceleration and jerk", joint.name, limits.source, ()
-    if joint.safety_controller:
-        yield "safety controllers", joint.name, joint.source, ("safety_controller",)
-    if joint.calibration:
-        yield "calibrations", joint.name, joint.source, ("calibration",)
-    if joint.mimic and robot.has_joint(joint.mimic.joint) and leader_of(joint, robot) is None:
-        yield "mimic with a joint of other than one axis", joint.name, joint.mimic.source or joint.source, ()
-    if joint.type == JointType.FLOATING:
-        yield from _of_floating(joint)
-
-
-def _of_floating(joint: Joint) -> Iterator[Loss]:
-    limits, dynamics = joint.limits, joint.dynamics
-    if limits:
-        yield "limits of floating joints", joint.name, limits.source or joint.source, ()
-    if dynamics and (dynamics.damping or dynamics.friction):
-        yield "dynamics of floating joints", joint.name, dynamics.source or joint.source, ()
+        yield Loss("limits of acceleration, deceleration and jerk", joint.name, limits.source)
+    yield from joint_losses(joint, robot, loose=(JointType.FLOATING,))
 
 
 def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:
@@ -81,22 +61,22 @@ def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:
         if not layout.is_world(link.name):
             continue
         if link.inertial:
-            yield "mass of the world", link.name, link.source, ("inertial",)
+            yield Loss("mass of the world", link.name, link.source, ("inertial",))
         if link.shapes:
-            yield "shapes of the world", link.name, link.source, ("visual" if link.visuals else "collision",)
+            yield Loss("shapes of the world", link.name, link.source, ("visual" if link.visuals else "collision",))
         for sensor in robot.sensors:
             if sensor.link_name == link.name:
-                yield "sensors on the world", sensor.name, sensor.source, ("link",)
+                yield Loss("sensors on the world", sensor.name, sensor.source, ("link",))
 
 
 def _lost_settings(robot: Robot, layout: Layout) -> Iterator[Loss]:
-    for reference, settings in settings_by_reference(robot).items():
+    for reference, settings in layout.settings.items():
         held, where = _held_settings(reference, robot, layout)
         for setting in settings:
             if setting.tag not in held:
                 is_held_elsewhere = setting.tag in OF_BODY | OF_JOINT
                 parts = f"place for the setting '{setting.tag}'{where if is_held_elsewhere else ''}"
-                yield parts, reference or robot.name, setting.source, setting.path
+                yield Loss(parts, reference or robot.name, setting.source, setting.path)
 
 
 def _held_settings(reference: str | None, robot: Robot, layout: Layout) -> tuple[Set[str], str]:
@@ -122,7 +102,7 @@ def _lost_xml(robot: Robot) -> Iterator[Loss]:
         if not any(isinstance(part, _NOT_RAW_URDF) for part in (*held.around, held.part))
     )
     for name, source, path in lost_xml(robot, parts):
-        yield "raw XML of a URDF", name, source, tuple(path)
+        yield Loss("raw XML of a URDF", name, source, path)
 
 
 _NOT_RAW_URDF = (Sensor, GazeboElement, Ros2Control, Transmission)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.formats.mesh_paths import find_file
@@ -21,11 +20,7 @@ class MeshUris:
 
     def of(self, resource: str) -> str:
         """Return the URI of a file; one that is not found on this machine is not resolved."""
-        path = self.file(resource) if self._is_resolved else None
+        path = find_file(self._robot, resource) if self._is_resolved else None
         if path:
             return path.as_posix()  # Gazebo decodes no `%20` of a URI
         return _MODEL + resource.removeprefix(_PACKAGE) if resource.startswith(_PACKAGE) else resource
-
-    def file(self, resource: str) -> Path | None:
-        """Return the file on this machine, None for none."""
-        return find_file(self._robot, resource)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.fields import tags_with_text
-from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
+from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement, property_path
 from linkforge_compile.core.models.link import PHYSICS_TAGS
 from linkforge_compile.formats.element import parameter_elements, raw_texts
 from linkforge_compile.formats.raw import element_texts, plain_text, well_formed_elements
@@ -88,10 +88,8 @@ def _settings_of(block: GazeboElement) -> Iterator[Setting]:
     for name, tag in _FIELD_TAGS.items():
         if (value := getattr(block, name)) is not None:
             yield Setting(tag, spelled(value), block.source, (name,))
-    # Tags of Gazebo that are keys of the language are written in the block itself, others in its `properties`.
-    own = block.source.node if block.source else None
     for tag, value in block.properties.items():
-        yield Setting(tag, value, block.source, (tag,) if own and own.child(tag) else ("properties", tag))
+        yield Setting(tag, value, block.source, property_path(block, tag))
     for raw, source, path in raw_texts(block, block.source):
         for element, xml in element_texts(raw, source, *path):
             yield Setting(element.tag, xml, source, path, element)
@@ -132,7 +130,7 @@ _JOINT_ODE = {
 _OF_SHAPES = ("visual", "collision")
 """Tags whose children are added to each shape of a link."""
 
-_SEVERAL = LINK_ELEMENTS | OF_MODEL - {"static", "self_collide", "allow_auto_disable"}
+_SEVERAL = LINK_ELEMENTS | OF_MODEL - _FLAGS_OF_MODELS
 """Tags of which a part may have several."""
 
 _SAME_ELEMENT = {"turnGravityOff": "gravity", "selfCollide": "self_collide", "cfmDamping": "implicitSpringDamper"}
@@ -177,9 +175,9 @@ def collision_elements(settings: Settings) -> Xml:
     return Xml("".join([*_tags_for(by_tag, _COLLISION), surface, of_gazebo]))
 
 
-def replaced_settings(robot: Robot) -> Iterator[tuple[str, Setting]]:
+def replaced_settings(all_settings: Mapping[str | None, Settings]) -> Iterator[tuple[str, Setting]]:
     """Yield the settings of contacts that a <surface> of the user's replaces, each with the name of its link."""
-    for reference, settings in settings_by_reference(robot).items():
+    for reference, settings in all_settings.items():
         if reference is not None and _has_surface(shape_elements("collision", settings)):
             yield from ((reference, one) for one in settings if one.tag in _FRICTION or one.tag in _CONTACT)
 

@@ -1,0 +1,39 @@
+"""`linkforge lsp`: the language server, which editors start."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli import OK, UsageError
+
+if TYPE_CHECKING:
+    import argparse
+
+_EXAMPLES = """\
+Editors start it; docs/editors.md has the set-up of each. It talks over standard input and output, or to the one client
+that connects to a port of this machine. It needs pygls: pip install 'linkforge-compile[lsp]'.
+
+examples:
+  linkforge lsp
+  linkforge lsp --port 2087         for an editor or a debugger that connects by TCP
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = _EXAMPLES
+    parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (default)")
+    parser.add_argument("--port", type=int, metavar="PORT", help="listen for one client on 127.0.0.1")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    try:
+        from linkforge_compile.lsp.server import make_server
+    except ModuleNotFoundError as error:
+        if error.name not in {"pygls", "lsprotocol"}:
+            raise
+        raise UsageError("the language server needs pygls; run: pip install 'linkforge-compile[lsp]'") from None
+    if arguments.port is not None:
+        make_server().start_tcp("127.0.0.1", arguments.port)
+    else:
+        make_server().start_io()
+    return OK

@@ -1,0 +1,135 @@
+"""Parameters of a controller manager: the names in them of hardware and controllers, which take the prefix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple, Self
+
+from linkforge_compile.core.part import FrozenMap, dump_like
+from linkforge_compile.source import Key, SourceRef
+
+HARDWARE, CONTROLLER = "ros2_control system", "controller"
+"""What a name in the parameters is that of."""
+
+_INITIAL_STATE = "hardware_components_initial_state"
+_STATES = ("unconfigured", "inactive")
+_OF_CONTROLLER = frozenset(("type", "params_file", "fallback_controllers", "node_options_args"))
+"""What the manager has of each controller, under its name."""
+
+
+class SourcedText(str):
+    """A name in the parameters of a manager, with the `source` of its value, None if it was not read.
+
+    Merging modules puts the parameters of several files into one manager, so the source of the manager would not do.
+    It compares, hashes and prints as that name. A key has its own node as the `key` of its source.
+    """
+
+    __slots__ = ("source",)
+
+    source: SourceRef | None
+
+    def __new__(cls, text: str, source: SourceRef | None = None) -> Self:
+        sourced = super().__new__(cls, text)
+        sourced.source = source
+        return sourced
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.source)
+
+
+dump_like(SourcedText, str)
+
+
+class ListedName(NamedTuple):
+    """A name in a list of the parameters, and what it is that of."""
+
+    kind: str
+    name: str
+
+
+def kind_of_names(path: tuple[str, ...]) -> str | None:
+    """Return what the names in the list at a path are those of, HARDWARE or CONTROLLER; None for all other paths.
+
+    As in ROS 2, a name with dots is the same as maps in each other.
+    """
+    match ".".join(path).split("."):
+        case [outer, inner] if outer == _INITIAL_STATE and inner in _STATES:
+            return HARDWARE
+        case [_, "fallback_controllers"]:
+            return CONTROLLER
+    return None
+
+
+def is_name_of_controller(key: str, value: object) -> bool:
+    """Whether a key of the parameters is the name of a controller, for what the manager has of it."""
+    inner = value if isinstance(value, Mapping) else (key.partition(".")[2],)
+    return any(name.partition(".")[0] in _OF_CONTROLLER for name in inner)
+
+
+def listed_names(parameters: Mapping[str, object], path: tuple[str, ...] = ()) -> Iterator[ListedName]:
+    """Yield the names in the lists of the parameters."""
+    for key, value in parameters.items():
+        inner = (*path, key)
+        if kind := kind_of_names(inner):
+            names = value if isinstance(value, list | tuple) else (value,)
+            yield from (ListedName(kind, name) for name in names if isinstance(name, str))
+        elif isinstance(value, Mapping):
+            yield from listed_names(value, inner)
+
+
+def with_prefixed_names(parameters: Mapping[str, object], prefix: str) -> Mapping[str, object]:
+    """Return the parameters with a prefix before the names of hardware and controllers."""
+    return FrozenMap(
+        {
+            _prefixed(key, prefix) if is_name_of_controller(key, value) else key: _with_prefix(value, (key,), prefix)
+            for key, value in parameters.items()
+        }
+    )
+
+
+def _with_prefix(value: object, path: tuple[str, ...], prefix: str) -> object:
+    if isinstance(value, Mapping):
+        return FrozenMap({key: _with_prefix(item, (*path, key), prefix) for key, item in value.items()})
+    if kind_of_names(path) is None:
+        return value
+    if isinstance(value, list | tuple):
+        return tuple(_prefixed(name, prefix) if isinstance(name, str) else name for name in value)
+    return _prefixed(value, prefix) if isinstance(value, str) else value
+
+
+def _prefixed(name: str, prefix: str) -> str:
+    return SourcedText(prefix + name, name.source) if isinstance(name, SourcedText) else prefix + name
+
+
+class LoadedClass(NamedTuple):
+    """The class of a controller in the parameters of the manager, and the names that lead to it there."""
+
+    path: tuple[str, ...]
+    type: object
+
+
+def loaded_class(parameters: Mapping[str, object], controller: str) -> LoadedClass | None:
+    """Return the class of a controller that the parameters of the manager state; None if they do not."""
+    for key, value in parameters.items():
+        if key == f"{controller}.type":
+            return LoadedClass((key,), value)
+        if key == controller and isinstance(value, Mapping):
+            return next((LoadedClass((key, name), one) for name, one in value.items() if name == "type"), None)
+    return None
+
+
+def place_of_parameter(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the value at a path of a controller was written: an object, and the path from there."""
+    name = path[-1]
+    if isinstance(name, SourcedText) and name.source:
+        return (SourceRef(name.source.node, None, name.source.trail),)
+    return (source, *path)
+
+
+def place_of_parameter_name(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the last name of a path itself was written."""
+    *outer, name = path
+    if isinstance(name, SourcedText) and name.source:
+        return (name.source,)
+    keys = (*outer, Key(name))
+    return (source, *keys)

@@ -1,0 +1,189 @@
+"""Find what a position in a text is: the path of keys that leads to it, and whether a key or a value is there.
+
+The text need not parse. PyYAML reads it up to a marker in place of the word at the position, so that what follows does
+not matter; if what precedes is malformed, it reads from the last line that begins a section.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum, auto
+from typing import NamedTuple, TypeAlias
+
+import yaml
+from yaml.events import (
+    AliasEvent,
+    MappingEndEvent,
+    MappingStartEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+)
+
+from linkforge_compile.source import Position, SourceFile, Span
+from linkforge_compile.syntax.parser import PARSER
+
+_Path: TypeAlias = tuple[str | int, ...]
+
+_MARKER = "linkforge_marker"
+"""No word of a spec: its name is not one that a person gives to a part."""
+
+_WORD = re.compile(r"[^\s,\[\]{}()'\"#:$*+]*")
+_SECTION = re.compile(r"^(?=[^\s#\-\]}])", re.MULTILINE)
+"""The first character of a line that begins a section."""
+
+_OWN_LINE = re.compile(r"\s*(-\s+)*")
+
+
+class Role(Enum):
+    """What is at a position."""
+
+    KEY = auto()
+    VALUE = auto()
+    ITEM = auto()
+    """The beginning of an item of a list, which may be a value or the first key of an object."""
+
+
+class Cursor(NamedTuple):
+    """What is at a position.
+
+    `path` leads to the value or item there, for a key to the map that has it. `word` is the place of the word at the
+    position. `before` is what is written of the scalar up to the position, with the words before it. `siblings` are the
+    keys that precede a key in its map. `is_own_line` tells whether nothing else precedes it in its line.
+    """
+
+    path: _Path
+    role: Role
+    word: Span
+    before: str
+    siblings: tuple[str, ...] = ()
+    is_own_line: bool = False
+
+    @property
+    def typed(self) -> str:
+        """The word up to the position."""
+        begin = max((self.before.rfind(mark) for mark in " \t,[]{}()'\"#:$*+"), default=-1)
+        return self.before[begin + 1 :]
+
+    @property
+    def expression(self) -> str | None:
+        """What is written, up to the position, of the expression that the position is in; None if it is in none."""
+        return open_expression(self.before)
+
+
+def find_cursor(file: SourceFile, at: Position) -> Cursor | None:
+    """Return what is at a position; None for a comment, and where nothing can be read."""
+    line = file.line(at.line)
+    begin = at.column - 1
+    while begin and _WORD.fullmatch(line[begin - 1]):
+        begin -= 1
+    word = _WORD.match(line, begin)
+    assert word is not None, "the pattern matches an empty word"
+    span = Span(file, at.line, begin + 1, at.line, word.end() + 1)
+    lines = [*file.lines[: at.line - 1], line[:begin]]
+    rest, is_own_line = line[word.end() :], _OWN_LINE.fullmatch(line[:begin]) is not None
+    begins_item = line[:begin].lstrip().startswith("-") and not rest.lstrip().startswith(":")
+    for beginning in _beginnings("\n".join(lines)):
+        for marked in _marked(rest, is_own_line=is_own_line):
+            found = _find_marker(beginning + marked)
+            if found is not None:
+                path, role, before, siblings = found
+                role = Role.ITEM if role is Role.KEY and begins_item and is_own_line else role
+                return Cursor(path, role, span, before + line[begin : at.column - 1], siblings, is_own_line)
+    return None
+
+
+def _beginnings(text: str) -> Iterator[str]:
+    """Yield a text, and what of it begins with the last line that begins a section."""
+    yield text
+    sections = [found.start() for found in _SECTION.finditer(text)]
+    if sections and sections[-1]:
+        yield text[sections[-1] :]
+
+
+def _marked(rest: str, *, is_own_line: bool) -> Iterator[str]:
+    """Yield the marker with each end that may make it a scalar; `rest` is what follows the word in its line."""
+    if is_own_line:
+        yield f"{_MARKER}: "
+    yield from (_MARKER, f"{_MARKER}{rest}", f'{_MARKER}"', f"{_MARKER}'")
+
+
+_Found: TypeAlias = tuple[_Path, Role, str, tuple[str, ...]]
+
+
+def _find_marker(text: str) -> _Found | None:
+    """Return the path of the marker, its role, what precedes it in its scalar, and the keys before it in its map."""
+    levels: list[_Level] = []
+    try:
+        for event in yaml.parse(text, Loader=PARSER):
+            match event:
+                case ScalarEvent(value=value) if _MARKER in value:
+                    return _found(levels, value.partition(_MARKER)[0])
+                case ScalarEvent(value=value):
+                    if levels:
+                        levels[-1].pass_node(value)
+                case AliasEvent():
+                    levels[-1].pass_node("")
+                case MappingStartEvent() | SequenceStartEvent():
+                    levels.append(_Level(is_map=isinstance(event, MappingStartEvent)))
+                case MappingEndEvent() | SequenceEndEvent():
+                    levels.pop()
+                    if levels:
+                        levels[-1].pass_node("")
+    except yaml.YAMLError:
+        pass
+    return None
+
+
+@dataclass
+class _Level:
+    """A map or list that the parser is in; `step` is its key or the position of its item, None before a key."""
+
+    is_map: bool
+    keys: list[str] = field(default_factory=list)
+    items: int = 0
+    is_value: bool = False
+
+    @property
+    def step(self) -> str | int | None:
+        if self.is_map:
+            return self.keys[-1] if self.is_value else None
+        return self.items
+
+    def pass_node(self, text: str) -> None:
+        """Go on after a node; `text` is that of a scalar."""
+        if not self.is_map:
+            self.items += 1
+            return
+        if not self.is_value:
+            self.keys.append(text)
+        self.is_value = not self.is_value
+
+
+def _found(levels: list[_Level], before: str) -> _Found:
+    path = tuple(level.step for level in levels if level.step is not None)
+    if not levels or (levels[-1].is_map and not levels[-1].is_value):
+        return path, Role.KEY, before, tuple(levels[-1].keys) if levels else ()
+    return path, Role.VALUE if levels[-1].is_map else Role.ITEM, before, ()
+
+
+def open_expression(text: str) -> str | None:
+    """Return what follows the last `$(` of a text that is not closed in it; None if there is none."""
+    starts: list[int] = []
+    index = 0
+    while index < len(text):
+        if text.startswith("$$(", index):
+            index += 3
+            continue
+        if text.startswith("$(", index):
+            starts.append(index + 2)
+            index += 2
+            continue
+        if starts and text[index] == "(":
+            starts.append(starts[-1])
+        elif starts and text[index] == ")":
+            starts.pop()
+        index += 1
+    return text[starts[-1] :] if starts else None

@@ -1,0 +1,190 @@
+"""The open buffers of an editor, and the latest Analysis of each spec that they belong to.
+
+A buffer is compiled as a spec of its own. A part without a name, which other specs include, is compiled with those of
+them that are in the folders of the workspace.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+from lsprotocol import types
+
+from linkforge_compile.analysis import Analysis, Settings, analyse_path
+from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
+from linkforge_compile.editor.folders import SPEC_ENDINGS, TooManyFilesError, find_specs
+from linkforge_compile.expand import Unset
+from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.roots import identity
+from linkforge_compile.source import Position, SourceFile, Span
+from linkforge_compile.source.characters import UnreadableError
+from linkforge_compile.source.read_file import read_text
+
+_MAX_BYTES = 1024 * 1024
+"""The largest file that is searched for the names of others."""
+
+
+class Buffer(NamedTuple):
+    """An open text: the path and version as the editor gives them, and its content."""
+
+    path: Path
+    version: int | None
+    file: SourceFile
+
+
+class Document(NamedTuple):
+    """What a feature sees of an open buffer: its text, and the analyses of the specs that read it, its own first."""
+
+    path: Path
+    file: SourceFile
+    analyses: tuple[Analysis, ...]
+    columns: Columns
+
+    @property
+    def analysis(self) -> Analysis | None:
+        """The analysis of the spec that the text is or belongs to."""
+        return self.analyses[0] if self.analyses else None
+
+    def place(self, at: types.Position) -> Position:
+        """Return the place of a position of the protocol in this text."""
+        return self.columns.place(self.file, at)
+
+    def holds(self, span: Span) -> bool:
+        """Whether a place is in this text."""
+        return span.file.path is not None and identity(span.file.path) == identity(self.path)
+
+
+@dataclass
+class Workspace:
+    """All that the server knows. `generation` counts the changes of texts, so that older results can be told apart."""
+
+    folders: tuple[Path, ...] = ()
+    packages: Mapping[str, Path] = field(default_factory=dict)
+    buffers: dict[str, Buffer] = field(default_factory=dict)
+    """The open buffers by real path."""
+    analyses: dict[str, Analysis] = field(default_factory=dict)
+    """The latest analysis of each spec by real path."""
+    generation: int = 0
+    _stale: set[str] = field(default_factory=set)
+    _includers: dict[str, tuple[Path, ...]] = field(default_factory=dict)
+
+    def put(self, path: Path, version: int | None, text: str) -> None:
+        """Open a buffer, or replace its text."""
+        real = identity(path)
+        self.buffers[real] = Buffer(path, version, SourceFile(str(path), text, path))
+        self.note_change(path)
+        if real not in self.analyses:
+            self._stale.add(real)
+
+    def close(self, path: Path) -> None:
+        """Close a buffer: from now on its file is read."""
+        real = identity(path)
+        self.buffers.pop(real, None)
+        self._includers.pop(real, None)
+        self.note_change(path)
+        needed = {identity(root) for root in self.roots()}
+        self.analyses = {root: analysis for root, analysis in self.analyses.items() if root in needed}
+        self._stale &= needed
+
+    def note_change(self, path: Path) -> None:
+        """Mark the specs that read a file, or looked for it, as to be analysed again."""
+        self.generation += 1
+        real = identity(path)
+        for root, analysis in self.analyses.items():
+            read = (*analysis.compilation.files, *analysis.compilation.unread)
+            if real == root or any(identity(file) == real for file in read):
+                self._stale.add(root)
+
+    def roots(self) -> tuple[Path, ...]:
+        """Return the specs to analyse: each buffer, or the specs that include it."""
+        found = (self._includers.get(real) or (buffer.path,) for real, buffer in self.buffers.items())
+        return tuple({identity(path): path for paths in found for path in paths}.values())
+
+    def pending(self) -> tuple[Path, ...]:
+        """Return the specs whose analysis is missing or older than a text."""
+        return tuple(
+            root for root in self.roots() if identity(root) in self._stale or identity(root) not in self.analyses
+        )
+
+    def settings(self) -> Settings:
+        """Return how specs are analysed now: as `linkforge check` does, with the buffers in place of their files."""
+        texts = {real: buffer.file.text for real, buffer in self.buffers.items()}
+        return Settings(packages=dict(self.packages), options={"gazebo": "gz"}, unset=Unset.NOTE, buffers=texts)
+
+    def begin(self, path: Path) -> Settings:
+        """Return the settings to analyse a spec with, which from now on is stale only by further changes."""
+        self._stale.discard(identity(path))
+        return self.settings()
+
+    def keep(self, path: Path, analysis: Analysis, includers: Iterable[Path] = ()) -> None:
+        """Keep the analysis of a spec; `includers` are the specs to analyse in its place if it is a part of them."""
+        self.analyses[identity(path)] = analysis
+        if includers:
+            self._includers[identity(path)] = tuple(includers)
+
+    def document(self, path: Path, columns: Columns) -> Document | None:
+        """Return what a feature sees of an open buffer; None if it is not open."""
+        real = identity(path)
+        buffer = self.buffers.get(real)
+        if buffer is None:
+            return None
+        own = [self.analyses[real]] if real in self.analyses and real not in self._includers else []
+        others = [one for root, one in self.analyses.items() if root != real and _reads(one, real)]
+        return Document(buffer.path, buffer.file, (*own, *others), columns)
+
+
+def is_spec(path: Path) -> bool:
+    """Whether a file is a spec by its name."""
+    return os.fspath(path).endswith(SPEC_ENDINGS)
+
+
+def is_part(analysis: Analysis) -> bool:
+    """Whether a spec has no name, as a part that other specs include."""
+    return any(one.code is MISSING_NAME for one in analysis.compilation.diagnostics)
+
+
+def _reads(analysis: Analysis, real: str) -> bool:
+    return any(identity(file) == real for file in analysis.compilation.files)
+
+
+def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[Path, Analysis]:
+    """Return the specs in folders that read a file, directly or through others, with their analyses."""
+    real = identity(path)
+    others = (spec for spec in _mentioning(path, folders, settings.buffers) if identity(spec) != real)
+    analyses = {spec: analyse_path(spec, settings) for spec in others}
+    return {spec: analysis for spec, analysis in analyses.items() if _reads(analysis, real)}
+
+
+def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str]) -> list[Path]:
+    """Return the specs that name a file, those that name these, and so on."""
+    texts = {spec: _text(spec, buffers) for folder in folders for spec in _specs_in(folder)}
+    found: dict[Path, None] = {}
+    names = [path.name]
+    while names:
+        name = names.pop()
+        new = [spec for spec, text in texts.items() if name in text and spec not in found]
+        found |= dict.fromkeys(new)
+        names += [spec.name for spec in new]
+    return list(found)
+
+
+def _specs_in(folder: Path) -> tuple[Path, ...]:
+    """Return the specs in a folder; none if these are more than a repository of robots has."""
+    try:
+        return find_specs(folder)
+    except TooManyFilesError:
+        return ()
+
+
+def _text(path: Path, buffers: Mapping[str, str]) -> str:
+    known = buffers.get(identity(path))
+    if known is not None:
+        return known
+    try:
+        return read_text(path, _MAX_BYTES, only_regular=True) or ""
+    except UnreadableError:
+        return ""
