@@ -194,7 +194,7 @@ def test_files_in_the_guide_exist():
 
 # The layout that the project prescribes, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
-FURTHER = "benchmarks cmake docs"
+FURTHER = "benchmarks cmake docs editors"
 
 
 def test_nothing_else_is_at_the_top_level():
