@@ -19,6 +19,7 @@ from linkforge_compile.analysis import analyse_path
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
+from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.symbols import find_symbols, outline
@@ -160,6 +161,11 @@ def _add_structure(server: SpecServer) -> None:
     def _fold(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
         document = server.document(params.text_document.uri)
         return folding_ranges(document.file) if document else []
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    def _format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        document = server.document(params.text_document.uri)
+        return format_edits(document) if document else []
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def _outline(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
