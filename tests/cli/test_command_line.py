@@ -43,6 +43,13 @@ def test_an_abbreviated_option_is_refused(tmp_path: Path, words: tuple[str, ...]
     assert f"unrecognized arguments: {words[1]}" in run.stderr
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_of_every_command_ends_with_examples_of_it(command: str, tmp_path: Path):
+    _, heading, examples = linkforge(command, "--help", cwd=tmp_path).stdout.partition("\n\nexamples:\n")
+    assert heading
+    assert f"  linkforge {command}" in examples
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only where the names of files are bytes")
 def test_names_of_files_are_the_same_in_the_locale_c(tmp_path: Path):
     (tmp_path / "é.robot.yaml").write_text(SPEC)
