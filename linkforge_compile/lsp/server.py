@@ -17,6 +17,7 @@ from linkforge_compile.analysis import analyse_path
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
+from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
 
@@ -88,12 +89,24 @@ class SpecServer(LanguageServer):
         await self._analyse()
         return self.document(uri)
 
+    async def analysed_with_users(self, uri: str) -> Document | None:
+        """Return what is known of an open spec, and of the specs in the workspace that read it."""
+        document = await self.analysed(uri)
+        if document is None:
+            return None
+        find = partial(find_users, document.path, self.specs.folders, self.specs.settings())
+        known = {identity(one.compilation.files[0]) for one in document.analyses if one.compilation.files}
+        users = await self._in_thread(find)
+        others = (one for path, one in users.items() if identity(path) not in known)
+        return document._replace(analyses=(*document.analyses, *others))
+
 
 def make_server() -> SpecServer:
     """Return a server with all features, not started."""
     server = SpecServer()
     _add_synchronization(server)
     _add_structure(server)
+    _add_navigation(server)
     return server
 
 
@@ -141,3 +154,22 @@ def _add_structure(server: SpecServer) -> None:
     def _fold(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
         document = server.document(params.text_document.uri)
         return folding_ranges(document.file) if document else []
+
+
+def _add_navigation(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
+    async def _define(params: types.DefinitionParams) -> list[types.Location]:
+        document = await server.analysed(params.text_document.uri)
+        return declarations_of(document, document.place(params.position)) if document else []
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    async def _refer(params: types.ReferenceParams) -> list[types.Location]:
+        document = await server.analysed_with_users(params.text_document.uri)
+        is_wanted = params.context.include_declaration
+        at = document.place(params.position) if document else None
+        return references_to(document, at, with_declarations=is_wanted) if document and at else []
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    async def _highlight(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+        document = await server.analysed(params.text_document.uri)
+        return highlights(document, document.place(params.position)) if document else []

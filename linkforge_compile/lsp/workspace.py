@@ -12,13 +12,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from lsprotocol import types
+
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 from linkforge_compile.editor.folders import SPEC_ENDINGS, TooManyFilesError, find_specs
 from linkforge_compile.expand import Unset
 from linkforge_compile.lsp.convert import Columns
 from linkforge_compile.roots import identity
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import Position, SourceFile, Span
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_text
 
@@ -46,6 +48,10 @@ class Document(NamedTuple):
     def analysis(self) -> Analysis | None:
         """The analysis of the spec that the text is or belongs to."""
         return self.analyses[0] if self.analyses else None
+
+    def place(self, at: types.Position) -> Position:
+        """Return the place of a position of the protocol in this text."""
+        return self.columns.place(self.file, at)
 
     def holds(self, span: Span) -> bool:
         """Whether a place is in this text."""
