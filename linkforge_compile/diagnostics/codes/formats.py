@@ -238,10 +238,10 @@ NO_COLLISION_IN_SDF = Code(
     _W,
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
 )
-NOT_FOUND_NESTED = Code(
+NOT_IN_ITS_MODULE = Code(
     "LF7512",
-    _W,
-    "gz_ros2_control finds no joints in nested models, so it does not move '{joint}'; leave out `--nested`",
+    Severity.NOTE,
+    "gz_ros2_control finds no joints in nested models, so '{joint}' is in that of the robot, and not of its module",
     subject="joint",
 )
 NO_BODY_IN_SDF = Code(
