@@ -44,10 +44,9 @@ def test_an_abbreviated_option_is_refused(tmp_path: Path, words: tuple[str, ...]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_of_every_command_ends_with_examples_of_it(command: str, tmp_path: Path):
-    _, heading, examples = linkforge(command, "--help", cwd=tmp_path).stdout.partition("\n\nexamples:\n")
-    assert heading
-    assert f"  linkforge {command}" in examples
+def test_the_help_of_every_command_has_an_example_of_it(command: str, tmp_path: Path):
+    _, _, after_usage = linkforge(command, "--help", cwd=tmp_path).stdout.partition("show this help message and exit")
+    assert f"  linkforge {command}" in after_usage
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only where the names of files are bytes")
