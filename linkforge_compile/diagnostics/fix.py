@@ -62,7 +62,7 @@ class Replacement(NamedTuple):
         if end - begin > _LONGEST or len(self.new) > _LONGEST:
             return None
         text = span.file.counted[begin:end]
-        if self.old and (text.count(self.old) != 1 or ("$(" in text and not self.old.startswith("$"))):
+        if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
             return None
         at = begin + (text.find(self.old) if self.old else 0)
         place = span.file.between(at, at + len(self.old or text))

@@ -15,9 +15,11 @@ from linkforge_compile.diagnostics.codes import schema as codes
 from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.findings import Finding, merge_missing_levels
-from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
+from linkforge_compile.schema.hint_rules import value_hint, word_hint
+from linkforge_compile.schema.hints import renamed_key
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
+from linkforge_compile.schema.number_texts import is_row
 from linkforge_compile.schema.registry import HEADER, linked, plain
 from linkforge_compile.schema.shapes import (
     FREE,
@@ -198,6 +200,8 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        if new := renamed_key(str(schema["title"]), first.name):
+            fault = fault.replacing(first.name, new, is_safe=True)
         if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):
             fault = replace(fault, fixes=())  # the key would be written twice
         if space_like := find_like_space(first):
@@ -235,15 +239,19 @@ def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words = words_of(schema)
         hint = word_hint(mismatch, words)
-        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Finding(codes.UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint.ending}
+        fault = codes.UNKNOWN_WORD.at(node.span, near=() if hint.ending else words, notes=(), **facts)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
-    actual = f"{found(node)}{value_hint(mismatch)}"
+    hint = value_hint(mismatch)
+    actual = f"{found(node)}{hint.ending}"
     fault = codes.WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
-    yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
+    yield Finding(
+        fault.with_fix(hint.fix(node.span)), path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0
+    )
 
 
 def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -255,9 +263,10 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
-        actual = f"{len(node)}{value_hint(mismatch)}"
+        hint = value_hint(mismatch)
+        actual = f"{len(node)}{hint.ending}"
         fault = codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual)
-        yield Finding(fault, path)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
