@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import keyword
 import math
 import re
 import warnings
@@ -14,19 +13,18 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.functions import CONSTANTS, SIGNATURES
 from linkforge_compile.expressions.operators import ARITHMETIC, COMPARISONS, MAX_INTEGER_BITS
+from linkforge_compile.expressions.syntax_errors import STRING, explain_syntax_error
 from linkforge_compile.expressions.types import Expression, Template
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.source.text_place import TextPlace
-from linkforge_compile.units import UNITS
 
 MAX_LENGTH = 2_000
 """The longest expression, in characters."""
 
 _OPENING = re.compile(r"\$?\$\(")
-_STRING = r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\""
-_BRACKETS_AND_QUOTES = re.compile(rf"{_STRING}|['\"()]", re.DOTALL)
-_STRINGS_AND_SPACES = re.compile(rf"{_STRING}|\s", re.DOTALL)
+_BRACKETS_AND_QUOTES = re.compile(rf"{STRING}|['\"()]", re.DOTALL)
+_STRINGS_AND_SPACES = re.compile(rf"{STRING}|\s", re.DOTALL)
 
 
 def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
@@ -86,8 +84,11 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
             tree = ast.parse(f"({text})", mode="eval").body
     except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
-            start, length, problem = explain_syntax_error(text, error)
-            sink.report(codes.UNREADABLE_EXPRESSION.at(place.part(offset + start, length), problem=problem))
+            found = explain_syntax_error(text, error)
+            fault = codes.UNREADABLE_EXPRESSION.at(
+                place.part(offset + found.start, found.length), problem=found.problem
+            )
+            sink.report(fault.with_fix(found.instead.within(fault.span)) if found.instead else fault)
         else:  # beyond the limits of Python's parser
             sink.report(codes.EXPRESSION_TOO_LARGE.at(place.part(offset, len(text)), fault="nests too deep"))
         return None
@@ -169,6 +170,8 @@ _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
     ast.IsNot: ("'is not'", "compare values with '!='"),
 }
 """Syntax of Python that expressions do not have: what it is called, and what to write instead."""
+
+_MATH_OF_PYTHON = ("math", "numpy", "np")
 
 _PYTHON_CONSTANTS = {True: "true", False: "false", None: "null"}
 
@@ -253,16 +256,20 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
     begin = expression.index(left.end_col_offset or 0)
     between = expression.text[begin : expression.index(right.col_offset)]
     start, length = begin + max(between.find(symbol), 0), len(symbol)
-    return codes.NOT_IN_EXPRESSIONS.at(
+    fault = codes.NOT_IN_EXPRESSIONS.at(
         expression.place.part(expression.offset + start, length), use=f"contain {what}", instead=instead
     )
+    return fault.replacing("^", "**") if isinstance(operator, ast.BitXor) else fault
 
 
 def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
     match value:
         case bool() | None:
-            instead = f"write '{_PYTHON_CONSTANTS[value]}'"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), use=f"contain '{value}'", instead=instead)
+            word = _PYTHON_CONSTANTS[value]
+            fault = codes.NOT_IN_EXPRESSIONS.at(
+                expression.span(node), use=f"contain '{value}'", instead=f"write '{word}'"
+            )
+            return fault.replacing(str(value), word, is_safe=True, is_whole=True)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
             return codes.NOT_IN_EXPRESSIONS.at(
@@ -281,12 +288,21 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
     )
 
 
+def _attribute_fault(function: ast.expr, expression: Expression) -> Diagnostic:
+    """Return the error for a call of what is no name, such as `math.sqrt`."""
+    known = SIGNATURES.get(function.attr) if isinstance(function, ast.Attribute) else None
+    instead = f"write {known.signature}" if known else "call functions by their name only, such as sqrt(x)"
+    written = expression.written(function)
+    fault = codes.NOT_IN_EXPRESSIONS.at(expression.span(function), use=f"call '{written}'", instead=instead)
+    module, _, name = written.rpartition(".")
+    is_ours = known is not None and module in _MATH_OF_PYTHON
+    return fault.replacing(written, name, is_safe=True, is_whole=True) if is_ours else fault
+
+
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
-        known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
-        instead = f"write {known.signature}" if known else "call functions by their name only, such as sqrt(x)"
-        return codes.NOT_IN_EXPRESSIONS.at(span, use=f"call '{expression.written(call.func)}'", instead=instead)
+        return _attribute_fault(call.func, expression)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:
@@ -301,49 +317,3 @@ def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     whole = expression.span(call)
     found = "1 argument" if len(call.args) == 1 else f"{len(call.args)} arguments"
     return codes.WRONG_ARGUMENT_COUNT.at(whole, signature=function.signature, found=found)
-
-
-# Syntax errors
-
-_UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
-_KEYWORDS = "|".join(keyword.kwlist)
-
-_HABITS = (
-    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro; write package://{1}/..."),
-    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro; write $({1})"),
-    (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
-    (r"&&", "write 'and' for '&&'"),
-    (r"\|\|", "write 'or' for '||'"),
-    (r"!(?!=)", "write 'not' for '!'"),
-    (r"\?", "write: a if condition else b"),
-    (r"\$[({]?", "write names without '$' here"),
-    (r"#", "expressions cannot contain comments"),
-    (r"(?<![=!<>:])=(?!=)", "compare two values with '=='"),
-    (
-        rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
-        "units are not allowed here; declare '{1}' in 'variables'",
-    ),
-    (r"[×·⋅∙]", "write '*' for '{0}'"),
-    (r"÷", "write '/' for '{0}'"),
-    (r"[−–—]", "write '-' for '{0}'"),
-    (r"≤", "write '<=' for '{0}'"),
-    (r"≥", "write '>=' for '{0}'"),
-    (r"≠", "write '!=' for '{0}'"),
-    (r"²", "write '** 2' for '{0}'"),
-    (r"³", "write '** 3' for '{0}'"),
-    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a reserved word; read that key with ['{1}']"),
-    (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
-    (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
-)
-"""Habits from other languages, searched in the text without its strings, and the problem; the first match wins."""
-
-
-def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
-    """Return the offset and length of a syntax error in an expression, and what is wrong."""
-    bare = re.sub(_STRING, lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text, flags=re.DOTALL)
-    for habit, problem in _HABITS:
-        if found := re.search(habit, bare):
-            return found.start(), len(found[0]), problem.format(found[0], *found.groups())
-    # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
-    start = min(max((error.offset or 0) - 2, 0), len(text))
-    return start, 1, "something is missing or unexpected here"
