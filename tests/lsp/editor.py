@@ -28,7 +28,8 @@ def split_at_cursor(text: str) -> tuple[str, types.Position]:
 class Editor:
     """One server and the documents open in it; each method returns when the server has answered."""
 
-    def __init__(self, *folders: Path, options: dict[str, object] | None = None) -> None:
+    def __init__(self, *folders: Path, options: dict[str, object] | None = None, python: str = sys.executable) -> None:
+        """Create an editor with folders open; `options` are those of the server, which `python` runs."""
         self._client = LanguageClient("editor", "1")
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -37,6 +38,7 @@ class Editor:
         self._versions: dict[str, int] = {}
         self._folders = folders
         self._options = options
+        self._python = python
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -45,7 +47,7 @@ class Editor:
         def _published(params: types.PublishDiagnosticsParams) -> None:
             self._note_diagnostics(params)
 
-        self.wait(self._client.start_io(sys.executable, "-m", "linkforge_compile", "lsp"))
+        self.wait(self._client.start_io(self._python, "-m", "linkforge_compile", "lsp"))
         folders = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in self._folders]
         self.capabilities = self.wait(
             self._client.initialize_async(

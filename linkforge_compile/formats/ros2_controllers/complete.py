@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER, Controller
+from linkforge_compile.core.models.controller_kinds import FORWARD, GRIPPER, STATES, TRAJECTORY, lift_parameters
 from linkforge_compile.core.models.manager_parameters import loaded_class
 from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
-from linkforge_compile.formats.ros2_controllers.kinds import FORWARD, GRIPPER, JOINT_FIELDS, STATES, TRAJECTORY
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -30,7 +30,7 @@ def complete_controllers(robot: Robot) -> tuple[Controller, ...]:
         one for one in _default_controllers(robot) if not loaded_class(loaded, one.name)
     ]
     completed = []
-    for one in stated:
+    for one in map(lift_parameters, stated):
         members = (joint.name for joint in groups.get(one.group or "", ()))
         joints = one.joints or tuple(name for name in members if name in hardware)
         completed.append(_with_interfaces(one.with_fields(joints=joints), hardware))
