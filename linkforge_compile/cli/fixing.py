@@ -8,8 +8,9 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
-from linkforge_compile.cli.reports import errors_of, print_status
+from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.specs import count
+from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.fix import Edit, Fix, apply_edits, without_overlaps
 from linkforge_compile.diagnostics.grouping import ungrouped
@@ -17,8 +18,6 @@ from linkforge_compile.roots import identity, top_of
 
 if TYPE_CHECKING:
     import argparse
-
-    from linkforge_compile.diagnostics import Diagnostic
 
 _MOST_CHECKS = 100
 """How often the specs are checked at most; each fix of a syntax error may uncover the next one."""
@@ -135,15 +134,18 @@ def _new_fault(chosen: Collection[_Candidate], before: Report, after: Report) ->
     cannot be read is not checked.
     """
     was, now = (Counter(map(_key, ungrouped(report.diagnostics))) for report in (before, after))
-    if any(now[key] >= was[key] for key in (_key(one.diagnostic) for one in chosen)):
-        return "it is reported again"
+    corrected = {_key(one.diagnostic) for one in chosen}
     has_hidden = any(one.diagnostic.code.id.startswith(_SYNTAX) for one in chosen)
     written = _places_written(chosen)
-    for error in errors_of(after.diagnostics):
-        if error.span is None or now[_key(error)] <= was[_key(error)]:
+    for error in ungrouped(after.diagnostics):
+        if error.span is None:
             continue
         at = error.span.file.index_of(*error.span.start)
-        is_in_edit = any(begin <= at < end for begin, end in written.get(error.span.file.name, ()))
+        is_in_edit = any(begin <= at <= end for begin, end in written.get(error.span.file.name, ()))
+        if is_in_edit and _key(error) in corrected:
+            return "it is reported again"
+        if error.severity is not Severity.ERROR or now[_key(error)] <= was[_key(error)]:
+            continue
         is_yaml = error.code.id.startswith(_YAML) and error.code not in (XACRO_EXPRESSION, SPACE_AFTER_COLON)
         if is_in_edit or (is_yaml and not has_hidden and error.span.file.name in written):
             return f"it would bring the error '{error.message}'"

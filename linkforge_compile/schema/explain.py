@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_KEPT, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
 from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.findings import Finding, merge_missing_levels
 from linkforge_compile.schema.hint_rules import value_hint, word_hint
@@ -37,7 +38,7 @@ from linkforge_compile.schema.shapes import (
     shortened,
     words_of,
 )
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
@@ -225,8 +226,16 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
         )
         if node.get(name) is None and not is_reported:
-            code = codes.MISSING_VERSION if name == "linkforge" else codes.MISSING_NAME
-            yield Finding(code.at(first), (*path, name))
+            fault = _missing_version(first) if name == "linkforge" else codes.MISSING_NAME.at(first)
+            yield Finding(fault, (*path, name))
+
+
+def _missing_version(first: Span) -> Diagnostic:
+    """Return the error for a file without its version, at its first key."""
+    fault, start = codes.MISSING_VERSION.at(first), Span(first.file, *first.start, *first.start)
+    newline = "\r\n" if "\r\n" in first.file.text else "\n"
+    fix = Fix("write 'linkforge: 1'", (Edit(start, f"linkforge: 1{newline}"),), is_safe=True)
+    return fault.with_fix(fix) if first.column == 1 else fault
 
 
 def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
