@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
-from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.schema.findings import Finding, merge_missing_levels
 from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
@@ -39,6 +39,7 @@ from linkforge_compile.source import SourceRef
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
+from linkforge_compile.syntax.fixes import replace_like_spaces, space_after_colon
 from linkforge_compile.syntax.nodes import (
     YamlEntry,
     YamlFault,
@@ -53,9 +54,6 @@ from linkforge_compile.syntax.nodes import (
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
-
-
-_LEVEL_HINT = "; so are all entries here: is a line with a name missing above, or the indentation wrong?"
 
 
 def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
@@ -122,7 +120,7 @@ def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> Ya
     """Report the findings in the order of the file; return the tree without their nodes."""
     if not findings:
         return tree
-    findings = _merge_missing_levels(findings, tree)
+    findings = merge_missing_levels(findings, tree)
     found = [(one.diagnostic, tuple(join_links(aliases_of(SourceRef(tree), *one.path)) or ())) for one in findings]
     # If several aliases of one anchor do not match, the sink keeps the first; jsonschema's order is that of a set.
     for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
@@ -157,55 +155,8 @@ def _prune(tree: YamlMap, findings: Iterable[Finding]) -> YamlMap:
     return prune_map(tree, ())
 
 
-# A missing level of names: every entry of a map is then wrong in the same way, and reported once
-
-
-def _merge_missing_levels(findings: Sequence[Finding], tree: YamlMap) -> list[Finding]:
-    """Merge the findings on all entries of a map that are of the same wrong kind, and those on all maps of such."""
-    groups: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
-    for finding in sorted(findings, key=lambda one: one.diagnostic.order):
-        if finding.wrong_kind:
-            groups[finding.path[:-1], finding.wrong_kind].append(finding)
-    complete = {key: group for key, group in groups.items() if _is_every_entry(tree, key[0], len(group))}
-    above: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
-    for (path, kind), group in complete.items():
-        above[path[:-1], kind].append(_merge(group))
-    merged: list[Finding] = []
-    for (path, _), group in above.items():
-        merged += [_merge(group)] if _is_every_entry(tree, path, len(group)) else group
-    replaced = {id(finding) for group in complete.values() for finding in group}
-    return [*(finding for finding in findings if id(finding) not in replaced), *merged]
-
-
-def _is_every_entry(tree: YamlMap, path: Path, count: int) -> bool:
-    """Whether a map has this many entries with a value, and more than one."""
-    node = node_at(tree, path)
-    entries = [entry for entry in node if not is_null(entry.value)] if isinstance(node, YamlMap) else []
-    return count > 1 and len(entries) == count
-
-
-def _merge(group: Sequence[Finding]) -> Finding:
-    first, *others = group
-    message = first.diagnostic.message.removesuffix(_LEVEL_HINT) + _LEVEL_HINT
-    also = (*first.also, *(path for other in others for path in (other.path, *other.also)))
-    return Finding(replace(first.diagnostic, message=message), first.path, also, first.wrong_kind)
-
-
 _MOST_COMPARED = 100
 """How many unknown keys are compared with a missing key; a hostile file has a hundred thousand."""
-
-
-class Finding(NamedTuple):
-    """A diagnostic and the path of the node that it is about, which a YamlFault replaces.
-
-    `also` are the paths of further nodes with the same fault. `wrong_kind` identifies the schema of a scalar of the
-    wrong kind, else it is 0.
-    """
-
-    diagnostic: Diagnostic
-    path: Path
-    also: tuple[Path, ...] = ()
-    wrong_kind: int = 0
 
 
 def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
@@ -225,7 +176,7 @@ def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
             if inner.schema_path[0] == branch:
                 yield from _explain(inner, tree)
     elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
-        yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
+        yield Finding(space_after_colon(node.span, node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
             yield Finding(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
@@ -247,8 +198,11 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):
+            fault = replace(fault, fixes=())  # the key would be written twice
         if space_like := find_like_space(first):
             fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
+            fault = fault.with_fix(replace_like_spaces(space_like.file))
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 

@@ -129,6 +129,15 @@ def _named(path: Path, document: str, name: str) -> list[_Query]:
     return [_Query(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
 
 
+def names_in(path: Path) -> tuple[str, ...]:
+    """Return the names that elements of a file declare, none for a file that is not XML."""
+    from linkforge_compile.source.characters import begins_xml
+
+    document = _text_of(path)
+    elements = _elements_of(path, document) if begins_xml(document) else ()
+    return tuple(dict.fromkeys(element.name for element in elements if element.is_declared))
+
+
 def _lines_with(path: Path, document: str, name: str) -> list[_Query]:
     """Return the lines of a file that is not XML in which a name is a whole word."""
     whole_word = re.compile(rf"(?<![\w./-]){re.escape(name)}(?![\w./-])")

@@ -10,13 +10,12 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
 from linkforge_compile.formats.sdf.relative_pose import NO_TURN, relative_pose
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
-from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
@@ -102,7 +101,7 @@ class Layout:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
         if joint.type == JointType.FIXED:
             return self.body_of(joint.child) != self.body_of(joint.parent)
-        return joint.type in SINGLE
+        return joint.type in SINGLE_AXIS
 
     @cached_property
     def joint_names(self) -> Mapping[str, str]:
