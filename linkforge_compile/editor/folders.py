@@ -90,13 +90,29 @@ def _is_another(link: Path, files: set[str]) -> bool:
     return is_file(link) and identity(link) not in files
 
 
+def folders_of_specs(root: Path) -> tuple[Path, ...]:
+    """Return the folders that `find_specs` searches, the root first.
+
+    Raises:
+        TooManyFilesError: There are more than MAX_FOLDERS folders.
+
+    """
+    return tuple(folder for folder, _ in _walk_folders(root, None))
+
+
 def _walk(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+    for folder, files in _walk_folders(root, unread):
+        yield from (folder / name for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+
+
+def _walk_folders(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[tuple[Path, list[str]]]:
+    """Yield each folder with the names of the files in it."""
     for number, (folder, inner, files) in enumerate(os.walk(root, onerror=unread), start=1):
         if number > MAX_FOLDERS:
             raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
         # os.walk does not enter what is removed here.
         inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _OUTPUT_FOLDERS)
-        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+        yield Path(folder), files
 
 
 @dataclass(frozen=True)
