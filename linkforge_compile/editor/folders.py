@@ -32,7 +32,7 @@ SCHEMA = PurePath(".linkforge", "robot.schema.json")
 """The default path of a repository's schema."""
 
 _SPEC, _CMAKE, _PRE_COMMIT, _GITIGNORE = "{name}.robot.yaml", "CMakeLists.txt", ".pre-commit-config.yaml", ".gitignore"
-_SETTINGS, _EXTENSIONS = ".vscode/settings.json", ".vscode/extensions.json"
+_SETTINGS, _EXTENSIONS, _TASKS = ".vscode/settings.json", ".vscode/extensions.json", ".vscode/tasks.json"
 
 _TEMPLATES = {
     _SPEC: "robot.robot.yaml",
@@ -41,6 +41,7 @@ _TEMPLATES = {
     _PRE_COMMIT: "pre-commit-config.yaml",
     _SETTINGS: "settings.json",
     _EXTENSIONS: "extensions.json",
+    _TASKS: "tasks.json",
 }
 
 _FIND = "find_package(linkforge_compile REQUIRED)"
@@ -201,6 +202,7 @@ class RobotFolder:
             _GITIGNORE: _missing_patterns,
             _SETTINGS: self._missing_settings,
             _EXTENSIONS: _missing_extensions,
+            _TASKS: _missing_tasks,
         }
         texts = self._texts(name)
         homes = {self._folder_of(path) / path: path for path in finders}
@@ -213,7 +215,7 @@ class RobotFolder:
         return [] if f'"{schema}"' in found or f'"./{schema}"' in found else [self._yaml_schemas()]
 
 
-_AT_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS)
+_AT_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS, _TASKS)
 """Files that tools read only at the top of a repository."""
 
 
@@ -234,6 +236,12 @@ def _missing_patterns(found: str, text: str) -> list[str]:
 
 def _missing_extensions(found: str, text: str) -> list[str]:
     return [] if "redhat.vscode-yaml" in found else [line.strip() for line in text.splitlines()[1:-1]]
+
+
+def _missing_tasks(found: str, text: str) -> list[str]:
+    # The first one, which shows the others' form.
+    task = text.partition('"tasks": [\n')[2].partition("\n    },")[0]
+    return [] if '"linkforge"' in found else textwrap.dedent(f"{task}\n    }}").splitlines()
 
 
 def workspace_of(folder: Path) -> Path:
