@@ -24,6 +24,7 @@ COMMANDS = {
     "compile": "compile a spec to URDF, SRDF and other formats",
     "watch": "compile a spec, and again whenever one of its files changes",
     "check": "report all errors and warnings of specs, without writing anything",
+    "format": "format the white space of specs, and nothing else",
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",

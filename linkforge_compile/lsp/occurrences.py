@@ -37,6 +37,10 @@ DECLARING = {
 _STATES = ("semantic", "group_states")
 
 
+COMPUTING = {("modules",): "module", ("parameters",): "parameter", ("variables",): "variable", ("data",): "data"}
+"""The sections of a file that only compute, and what their keys declare."""
+
+
 class Occurrence(NamedTuple):
     """A name at a place; `name` is the final one, with the prefixes, of which `written` is what the place writes.
 
@@ -80,6 +84,11 @@ def _in_instance(instance: Instance, outer: str) -> Iterator[Occurrence]:
         walker = _Walker(prefix)
         yield from walker.declarations(instance.tree)
         yield from walker.references(instance.tree, definitions()["robot"])
+        for override in instance.overrides:
+            yield from (one._replace(is_declaration=False) for one in walker.declarations(override))
+            yield from walker.references(override, definitions()["robot"])
+        for one in instance.references:
+            yield Occurrence(one.kind, prefix + one.name, one.name, one.where.span)
     for module in instance.modules:
         if module.entry is not None and isinstance(module.entry.node, YamlMap):
             yield from _in_entry(module, module.entry.node, prefix)
@@ -151,6 +160,14 @@ class _Walker:
             yield from (self.occurrence(kind, entry.key) for kind in kinds)
             if isinstance(others, Mapping):
                 yield from self.references(entry.value, mapping(others))
+
+
+def declarations_in(tree: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
+    """Yield the kind and entry of each part that a file declares, as written, section by section; states come last."""
+    for path, kind in (*COMPUTING.items(), *DECLARING.items()):
+        yield from ((kind, entry) for entry in _section(tree, path))
+    for group in _section(tree, _STATES):
+        yield from (("state", state) for state in group.value) if isinstance(group.value, YamlMap) else ()
 
 
 def _section(tree: YamlMap, path: tuple[str, ...]) -> Iterable[YamlEntry]:

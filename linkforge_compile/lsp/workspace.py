@@ -161,7 +161,7 @@ def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[
 
 def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str]) -> list[Path]:
     """Return the specs that name a file, those that name these, and so on."""
-    texts = {spec: _text(spec, buffers) for folder in folders for spec in _specs_in(folder)}
+    texts = {spec: _text(spec, buffers) for folder in folders for spec in specs_in(folder)}
     found: dict[Path, None] = {}
     names = [path.name]
     while names:
@@ -172,7 +172,7 @@ def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str])
     return list(found)
 
 
-def _specs_in(folder: Path) -> tuple[Path, ...]:
+def specs_in(folder: Path) -> tuple[Path, ...]:
     """Return the specs in a folder; none if these are more than a repository of robots has."""
     try:
         return find_specs(folder)

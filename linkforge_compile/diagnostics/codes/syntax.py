@@ -67,6 +67,7 @@ TOP_LEVEL_NOT_MAP = Code("LF1110", _E, "expected keys such as 'name:' and 'links
 MERGE_NOT_MAP = Code("LF1111", _E, "'<<' merges a map or a list of maps, found {found}")
 OTHER_TAG = Code("LF1113", _E, "the only YAML tags allowed here are {known} before a number, found '{tag}'")
 EMPTY_DATA = Code("LF1114", _E, "the data file is empty; write the values that it is to hold")
+UNSAFE_FORMAT = Code("LF1115", _E, "formatting would change more than white space here; the file stays as it is")
 NUMBER_TOO_LARGE = Code("LF1112", _E, "the number is beyond what a double can hold")
 
 # LF12xx: comments that suppress diagnostics
