@@ -8,6 +8,7 @@ import pytest
 
 from tests.cli.in_process import linkforge
 from tests.cli.watching import nothing, run_with, sets
+from tests.conftest import ROOT
 
 ARM = """\
 linkforge: 1
@@ -82,6 +83,13 @@ def test_both_tasks_and_github_have_one_pattern(robot: Path):
         # VS Code shows notes as well, and no diagnostic without a place; GitHub has both the other way round.
         same = pattern["regexp"].replace("^(.+?):(\\d+):(\\d+): ", "^(?:(.+?):(\\d+):(\\d+): )?").replace("|note", "")
         assert {**pattern, "regexp": same} == of_github
+
+
+def test_the_manual_has_the_matcher_of_the_task(robot: Path):
+    manual = (ROOT / "docs/editors.md").read_text("utf-8")
+    shown = re.search(r"```json\n(\"isBackground\".*?)```", manual, re.DOTALL)[1]
+    task = tasks_in(robot)["linkforge check --watch"]
+    assert json.loads(f"{{{shown}}}") == {key: task[key] for key in ("isBackground", "problemMatcher")}
 
 
 def test_tasks_of_the_user_are_kept(tmp_path: Path):
