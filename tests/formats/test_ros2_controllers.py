@@ -81,6 +81,8 @@ ros2_control:
 """
 ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+POSITIONS = "position_controllers/JointGroupPositionController"
+FORWARD = "forward_command_controller/ForwardCommandController"
 
 
 def robot_of(text: str):
@@ -421,10 +423,6 @@ def test_a_list_that_ros_refuses_is_one_error():
     assert [one[:6] for one in found] == ["LF7623"]
 
 
-POSITIONS = "position_controllers/JointGroupPositionController"
-FORWARD = "forward_command_controller/ForwardCommandController"
-
-
 @pytest.mark.parametrize(
     ("in_parameters", "in_fields"),
     [
@@ -568,6 +566,26 @@ def test_joints_that_nothing_moves_without_gains_are_reported():
 
 
 @pytest.mark.parametrize(
+    ("controller", "codes"),
+    [
+        (f"type: {TRAJECTORY}, parameters: {{joints: shoulder}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, 1]}}", ["LF7623"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, elbo]}}", ["LF4103"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder], command_interfaces: position}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, joints: [$(joint('elbow'))]", ["LF3091"]),
+        (f"type: {TRAJECTORY}, group: arm, left_wheels: [left]", ["LF7605"]),
+        (f"type: {FORWARD}, group: arm, command_interfaces: [position, effort]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, left]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbo]", ["LF4103"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbow]", ["LF4160"]),
+    ],
+)
+def test_a_fault_of_a_controller_is_reported_once(controller: str, codes: list[str]):
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}controllers: {{o: {{type: a/B}}, c: {{{controller}}}}}\n"
+    assert [one.code.id for one in compile_text(text, formats=("ros2_controllers",)).diagnostics] == codes
+
+
+@pytest.mark.parametrize(
     ("type_", "intended"),
     [
         ("joint_trajectory_controller/JointTrajectoryControler", TRAJECTORY),
@@ -685,6 +703,17 @@ def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
     assert found.code.id == "LF4111"
     assert "'hardware_components_initial_state.shutdown_on_initial_state_failure'" in found.message
     assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
+
+
+def test_derived_values_lead_to_what_they_follow_from():
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}"
+    document = ROS2_CONTROLLERS.render(compile_text(text).result(), Rendering(has_map=True))[0]
+    assert document.map is not None
+    places = {line.strip(): document.map.at(at) for at, line in enumerate(document.text.splitlines(), start=1)}
+    found = {line: place.span.text for line, place in places.items() if place}
+    assert found["joints: [shoulder, elbow]"] == "arm"
+    assert found["command_interfaces: [position]"] == "[velocity, position]"
+    assert found["state_interfaces: [position, velocity]"] == "[velocity, position, effort]"
 
 
 def test_parameters_of_merged_managers_lead_to_the_files_of_their_modules(tmp_path: Path):

@@ -129,6 +129,14 @@ def stated_field(controller: Controller, field: str) -> str | None:
     return next((each for each in fields if getattr(controller, each)), None)
 
 
+def written_names(controller: Controller, field: str) -> tuple[str, ...]:
+    """Return the names of a field with several that are written: none without a parameter, one for a single one."""
+    kind, names = kind_of(controller.type), tuple(getattr(controller, field))
+    if field not in kind.parameters:
+        return ()
+    return names[:1] if field in kind.single else names
+
+
 def path_of_field(controller: Controller, field: str) -> tuple[str, ...]:
     """Return the path below a controller at which a field was written: that of a parameter for a lifted one."""
     node = controller.source.node if controller.source else None

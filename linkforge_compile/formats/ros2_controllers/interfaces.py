@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.controller import JOINT_FIELDS
-from linkforge_compile.core.models.controller_kinds import KINDS, path_of_field
+from linkforge_compile.core.models.controller_kinds import KINDS, path_of_field, written_names
 from linkforge_compile.diagnostics.codes.formats import NOT_OF_HARDWARE
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ def check_interfaces(robot: Robot, controller: Controller) -> Iterator[Diagnosti
     joints: list[tuple[tuple[str | int, ...], str]] = [
         ((*path_of_field(controller, field), place), name)
         for field in JOINT_FIELDS
-        for place, name in enumerate(getattr(controller, field))
+        for place, name in enumerate(written_names(controller, field))
     ]
     for claim in _claims(controller):
         for place, name in joints:
@@ -51,7 +51,7 @@ def _claims(controller: Controller) -> Iterator[_Claim]:
     """Yield what a controller of a known class claims; not what its `parameters` have, or other controllers."""
     kind = KINDS.get(controller.type or "")
     for what, by_class in (("command", kind.commands), ("state", kind.states)) if kind else ():
-        stated = tuple(getattr(controller, f"{what}_interfaces"))
+        stated = written_names(controller, f"{what}_interfaces")
         parameter = kind.parameters.get(f"{what}_interfaces") if kind else None
         is_elsewhere = parameter in controller.parameters or "command_joints" in controller.parameters
         if not is_elsewhere and (stated or by_class or (parameter and what == "command")):

@@ -11,6 +11,7 @@ from linkforge_compile.core.models.controller_kinds import (
     STATES,
     TRAJECTORY,
     kind_of,
+    written_names,
 )
 from linkforge_compile.diagnostics.codes.formats import (
     CONTROLLER_LACKS,
@@ -89,7 +90,7 @@ def _check_fields(controller: Controller) -> Iterator[Diagnostic]:
     given = {parameter for field, parameter in kind.parameters.items() if getattr(controller, field)}
     given |= controller.parameters.keys()
     lacks = [one for one in kind.required if given.isdisjoint((one, kind.instead.get(one)))]
-    if kind.parameters.get("joints") in lacks:
+    if "joints" in kind.parameters and not controller.joints:
         # The interfaces follow from the joints.
         lacks = [one for one in lacks if not one.endswith(("_interfaces", "interface_name"))]
     for parameter in lacks:
@@ -122,4 +123,4 @@ def _why(controller: Controller, field: str) -> str:
 
 
 def _joints(controller: Controller) -> tuple[str, ...]:
-    return tuple(name for field in JOINT_FIELDS for name in getattr(controller, field))
+    return tuple(name for field in JOINT_FIELDS for name in written_names(controller, field))

@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     STATED_TWICE,
 )
 from linkforge_compile.formats.ros2_controllers.check_parameters import check_lists
+from linkforge_compile.formats.ros2_controllers.complete import has_faulty_names
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Dia
         yield from _check_name(controller)
         if manager:
             yield from _check_loaded_class(manager, controller)
-        yield from _check_single_fields(controller)
+        if not has_faulty_names(robot, controller):
+            yield from _check_single_fields(controller)
 
 
 def _check_name(controller: Controller) -> Iterator[Diagnostic]:
@@ -50,7 +52,10 @@ def _check_name(controller: Controller) -> Iterator[Diagnostic]:
 def _check_single_fields(controller: Controller) -> Iterator[Diagnostic]:
     """A field of which a class has one name, such as the joint of a gripper, has no others."""
     for field in sorted(kind_of(controller.type).single):
-        for place, item in enumerate(getattr(controller, field)[1:], start=1):
+        first, *others = getattr(controller, field) or ("",)
+        for place, item in enumerate(others, start=1):
+            if item == first:
+                continue  # LF4160
             facts = {"type": controller.type, "field": field, "item": item, "controller": controller.name}
             yield ONE_OF_SEVERAL.at(controller.source, *path_of_field(controller, field), place, **facts)
 

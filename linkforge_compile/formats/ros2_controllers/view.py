@@ -9,14 +9,14 @@ from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
 from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.formats.element import placed
-from linkforge_compile.formats.ros2_controllers.complete import complete_controllers
+from linkforge_compile.formats.ros2_controllers.complete import completed_controllers
 from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, type_of
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
-    from linkforge_compile.core.models.controller_kinds import Kind
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.formats.ros2_controllers.complete import Completed
     from linkforge_compile.formats.ros2_controllers.parameters import Type
     from linkforge_compile.source import SourceRef
 
@@ -31,7 +31,7 @@ def controllers_view(robot: Robot) -> View:
     """
     manager = robot.controllers.get(MANAGER)
     stated = typed_parameters(manager) if manager else {}
-    controllers = [_view(one, stated.get(one.name)) for one in complete_controllers(robot)]
+    controllers = [_view(one, stated.get(one.controller.name)) for one in completed_controllers(robot)]
     elsewhere = {key for one in controllers for key in (one.name, f"{one.name}.type")}
     own = {key: value for key, value in stated.items() if key not in elsewhere}
     return View(
@@ -40,10 +40,10 @@ def controllers_view(robot: Robot) -> View:
     )
 
 
-def _view(controller: Controller, of_manager: object) -> View:
+def _view(completed: Completed, of_manager: object) -> View:
+    controller, _ = completed
     in_manager = of_manager if isinstance(of_manager, Mapping) else {}
-    kind = kind_of(controller.type)
-    parameters = {**dict(_of_fields(controller, kind)), **typed_parameters(controller)}
+    parameters = {**dict(_of_fields(completed)), **typed_parameters(controller)}
     return View(
         name=placed(controller.name, controller.source),
         type=placed(controller.type or "", controller.source, "type"),
@@ -52,14 +52,19 @@ def _view(controller: Controller, of_manager: object) -> View:
     )
 
 
-def _of_fields(controller: Controller, kind: Kind) -> Iterator[tuple[str, object]]:
+def _of_fields(completed: Completed) -> Iterator[tuple[str, object]]:
     """Yield the parameters that the fields of a controller become."""
+    controller, derived = completed
+    kind = kind_of(controller.type)
     for field, name in kind.parameters.items():
         value = getattr(controller, field)
         if value:
             is_list = not isinstance(value, str)
             written = value[0] if is_list and field in kind.single else list(value) if is_list else value
-            yield placed(name, controller.source, *path_of_field(controller, field)), written
+            if origin := derived.get(field):
+                yield placed(name, origin.source, *origin.path), written
+            else:
+                yield placed(name, controller.source, *path_of_field(controller, field)), written
 
 
 def typed_parameters(controller: Controller) -> dict[str, object]:
