@@ -6,28 +6,39 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from yaml import tokens
+
 from linkforge_compile.formatter.pieces import Piece
 
 
 def spaces_before(pieces: Sequence[Piece], normal: Sequence[int]) -> list[int]:
     """Return how many spaces are before each piece: the normal ones, or more where they make a column.
 
-    The pieces of a column begin, or end, below one another on adjacent lines, after the same kind of token, at least
-    one of them after the normal spaces.
+    The pieces of a column are on adjacent lines, at least one of them after the normal spaces.
     """
     columns = defaultdict[tuple[object, ...], dict[int, int]](dict)
     for number, (before, piece) in enumerate(pairwise(pieces), start=1):
         if piece.gap.spaces is not None and not piece.has_breaks:
-            columns["begin", piece.column, type(before.token)][piece.line] = number
-            columns["end", piece.end_column, type(before.token)][piece.line] = number
+            for column in _columns(before, piece):
+                columns[column][piece.line] = number
     spaces = list(normal)
-    for column in columns.values():
-        for run in _runs(list(column)):
-            written = {column[line]: pieces[column[line]].gap.spaces or 0 for line in run}
+    for numbers in columns.values():
+        for run in _runs(list(numbers)):
+            written = {numbers[line]: pieces[numbers[line]].gap.spaces or 0 for line in run}
             if any(count == normal[number] for number, count in written.items()):
                 for number, count in written.items():
                     spaces[number] = max(normal[number], count)
     return spaces
+
+
+def _columns(before: Piece, piece: Piece) -> Iterator[tuple[object, ...]]:
+    """Yield the columns that a piece may be in; pieces of a column have the same one."""
+    if isinstance(before.token, (tokens.ValueToken, tokens.FlowEntryToken)):
+        yield "begin", type(before.token), piece.column
+        yield "end", type(before.token), piece.end_column
+    # Numbers with and without a sign.
+    if isinstance(before.token, tokens.FlowSequenceStartToken) and isinstance(piece.token, tokens.ScalarToken):
+        yield "end", before.column, piece.end_column
 
 
 def _runs(lines: Sequence[int]) -> Iterator[list[int]]:

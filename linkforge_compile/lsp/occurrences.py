@@ -84,6 +84,11 @@ def _in_instance(instance: Instance, outer: str) -> Iterator[Occurrence]:
         walker = _Walker(prefix)
         yield from walker.declarations(instance.tree)
         yield from walker.references(instance.tree, definitions()["robot"])
+        for override in instance.overrides:
+            yield from (one._replace(is_declaration=False) for one in walker.declarations(override))
+            yield from walker.references(override, definitions()["robot"])
+        for one in instance.references:
+            yield Occurrence(one.kind, prefix + one.name, one.name, one.where.span)
     for module in instance.modules:
         if module.entry is not None and isinstance(module.entry.node, YamlMap):
             yield from _in_entry(module, module.entry.node, prefix)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
@@ -18,7 +20,9 @@ from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
+from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
+from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.symbols import find_symbols, outline
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
@@ -110,6 +114,7 @@ def make_server() -> SpecServer:
     _add_synchronization(server)
     _add_structure(server)
     _add_navigation(server)
+    _add_rename(server)
     _add_actions(server)
     return server
 
@@ -159,6 +164,11 @@ def _add_structure(server: SpecServer) -> None:
         document = server.document(params.text_document.uri)
         return folding_ranges(document.file) if document else []
 
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    def _format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        document = server.document(params.text_document.uri)
+        return format_edits(document) if document else []
+
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def _outline(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
         document = await server.analysed(params.text_document.uri)
@@ -189,6 +199,35 @@ def _add_navigation(server: SpecServer) -> None:
     async def _highlight(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
         document = await server.analysed(params.text_document.uri)
         return highlights(document, document.place(params.position)) if document else []
+
+
+def _add_rename(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    async def _prepare(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+        document = await server.analysed_with_users(params.text_document.uri)
+        with _refusals():
+            target = renamed_at(document, document.place(params.position)) if document else None
+        if document is None or target is None:
+            return None
+        return types.PrepareRenamePlaceholder(document.columns.range(target[0]), target[0].text or "")
+
+    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    async def _rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
+        document = await server.analysed_with_users(params.text_document.uri)
+        if document is None:
+            return None
+        at, settings = document.place(params.position), server.specs.settings()
+        with _refusals():
+            return await server.in_thread(partial(rename, document, at, params.new_name, settings))
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """Answer a request that is refused with the reason, which editors show."""
+    try:
+        yield
+    except RefusedError as error:
+        raise JsonRpcException(str(error), types.LSPErrorCodes.RequestFailed.value) from None
 
 
 def _add_actions(server: SpecServer) -> None:

@@ -143,12 +143,16 @@ def test_spaces_that_align_nothing_go():
         b: { x: 2 }
         c:   3
         d:   4
+        links: { base: }
+        joints: {}
         """,
         """
         a: {x: 1}
         b: {x: 2}
         c: 3
         d: 4
+        links: {base: }
+        joints: {}
         """,
     )
 

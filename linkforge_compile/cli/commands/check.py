@@ -51,6 +51,7 @@ examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge check [options] [SPEC ...] [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words",

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 NAME is the name of a link, a joint, a sensor or another element in the file; in a file that is not XML, it is a word of
-a line. The source map is FILE.map.json, which
-`linkforge compile --source-map` writes beside the file.
+a line. The source map is FILE.map.json, which `linkforge compile --source-map` writes beside the file.
 
 examples:
   linkforge compile arm.robot.yaml -o build/ --source-map
