@@ -1,7 +1,8 @@
 """Find what a position in a text is: the path of keys that leads to it, and whether a key or a value is there.
 
 The text need not parse. PyYAML reads it up to a marker in place of the word at the position, so that what follows does
-not matter; if what precedes is malformed, it reads from the last line that begins a section.
+not matter; if what precedes is malformed, it reads from the last line that begins a section, and else only the keys
+that are around the position by their indentation.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ MARKER = "linkforge_marker"
 _WORD = re.compile(r"[^\s,\[\]{}()'\"#:$*+]*")
 _SECTION = re.compile(r"^(?=[^\s#\-\]}])", re.MULTILINE)
 """The first character of a line that begins a section."""
+
+_KEY = re.compile(r"(?P<indent>\s*)(?:-\s+)*[^\s#\-\[\]{},][^#]*?:(?=\s|$)")
+"""A key that begins a line."""
 
 _OWN_LINE = re.compile(r"\s*(-\s+)*")
 
@@ -99,11 +103,24 @@ def find_cursor(file: SourceFile, at: Position) -> Cursor | None:
 
 
 def _beginnings(text: str) -> Iterator[str]:
-    """Yield a text, and what of it begins with the last line that begins a section."""
+    """Yield a text, what of it begins with the last line that begins a section, and the keys around its last line."""
     yield text
     sections = [found.start() for found in _SECTION.finditer(text)]
     if sections and sections[-1]:
         yield text[sections[-1] :]
+    yield _keys_around(text.split("\n"))
+
+
+def _keys_around(lines: list[str]) -> str:
+    """Return the last of the lines with the keys above it that are indented less, each less than those below it."""
+    last = lines[-1]
+    kept, indent = [last], len(last) - len(last.lstrip())
+    for line in reversed(lines[:-1]):
+        key = _KEY.match(line)
+        if key and len(key["indent"]) < indent:
+            kept.append(key[0])
+            indent = len(key["indent"])
+    return "\n".join(reversed(kept))
 
 
 def _marked(rest: str, *, is_own_line: bool) -> Iterator[str]:

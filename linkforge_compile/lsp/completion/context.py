@@ -16,7 +16,7 @@ from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.schema.descriptions import Described, described_at
 from linkforge_compile.schema.shapes import node_at
 from linkforge_compile.source import SourceFile, Span
-from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode, YamlScalar, read_data
+from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, read_data
 
 
 @dataclass(frozen=True)
@@ -34,14 +34,25 @@ class Context:
         return self.document.file.line(self.cursor.word.line)
 
     @property
+    def precedes_key(self) -> bool:
+        """Whether the position is just before a key, which then is not the one to complete."""
+        return self.cursor.role is Role.KEY and not self.cursor.typed and bool(self.cursor.word.text)
+
+    @cached_property
+    def word(self) -> Span:
+        """The word to replace."""
+        word = self.cursor.word
+        return word._replace(end_column=word.column) if self.precedes_key else word
+
+    @property
     def before_word(self) -> str:
         """What precedes the word in its line."""
-        return self.line[: self.cursor.word.column - 1]
+        return self.line[: self.word.column - 1]
 
     @property
     def after_word(self) -> str:
         """What follows the word in its line."""
-        return self.line[self.cursor.word.end_column - 1 :]
+        return self.line[self.word.end_column - 1 :]
 
     @property
     def column(self) -> int:
@@ -60,7 +71,7 @@ class Context:
 
     def range(self, begin: int, end: int | None = None) -> types.Range:
         """Return the range from a column to another one in the line, the end of the word if there is none."""
-        word = self.cursor.word
+        word = self.word
         end = word.end_column if end is None else end
         return self.document.columns.range(Span(word.file, word.line, begin, word.line, end))
 
@@ -72,7 +83,7 @@ class Context:
     @cached_property
     def _section(self) -> YamlNode | None:
         """The tree of the section around the position, as it is written now, with MARKER as its word."""
-        return _read_around(self.document.file, self.cursor)
+        return _read_around(self)
 
     def node(self, path: Sequence[str | int]) -> YamlNode | None:
         """Return what is written at a path now, or was when the text was last readable; None for nothing."""
@@ -86,12 +97,18 @@ class Context:
         """The entries of the map that the position is in, without its own word."""
         path = self.cursor.path if self.cursor.role is Role.KEY else self.cursor.path[:-1]
         if not path:
-            return {
-                name: YamlFault(self.cursor.word) for name in section_names(self.document.file, self.cursor.word.line)
-            }
+            line = 0 if self.precedes_key else self.cursor.word.line
+            return {name: YamlFault(self.cursor.word) for name in section_names(self.document.file, line)}
         found = self.node(path)
         entries = {entry.name: entry.value for entry in found} if isinstance(found, YamlMap) else {}
         return {name: value for name, value in entries.items() if MARKER not in name}
+
+    @property
+    def items_around(self) -> tuple[str, ...]:
+        """The other scalars in the list that the position is in."""
+        found = self.node(self.cursor.path[:-1]) if self.cursor.role is Role.ITEM else None
+        texts = (item.text for item in found if isinstance(item, YamlScalar)) if isinstance(found, YamlList) else ()
+        return tuple(text for text in texts if MARKER not in text)
 
     @property
     def text_around(self) -> Mapping[str, str]:
@@ -122,22 +139,19 @@ class Context:
                     yield section, entry.name, entry.value
 
 
-def _read_around(file: SourceFile, cursor: Cursor) -> YamlNode | None:
-    """Read the section of a text that the word of a cursor is in, with MARKER in place of the word.
+def _read_around(context: Context) -> YamlNode | None:
+    """Read the section of a text that the word of a position is in, with MARKER in place of the word.
 
     If what follows the position cannot be read, it is left out.
     """
-    word = cursor.word
-    line = file.line(word.line)
-    before, after = line[: word.column - 1], line[word.end_column - 1 :]
-    is_new_key = cursor.role is Role.KEY and cursor.is_own_line and not after.lstrip().startswith(":")
-    marker = f"{MARKER}:" if is_new_key else MARKER
-    first, last = section_lines(file, word.line)
-    above, below = list(file.lines[first - 1 : word.line - 1]), list(file.lines[word.line : last])
-    for text in (
-        "\n".join([*above, before + marker + after, *below]),
-        closed("\n".join([*above, before + marker])),
-    ):
+    file, line = context.document.file, context.cursor.word.line
+    is_new_key = context.cursor.role is Role.KEY and context.cursor.is_own_line
+    marker = f"{MARKER}:" if is_new_key and not context.after_word.lstrip().startswith(":") else MARKER
+    before, after = context.before_word + marker, context.after_word
+    whole = context.line if context.precedes_key else before + after
+    first, last = section_lines(file, line)
+    above, below = list(file.lines[first - 1 : line - 1]), list(file.lines[line:last])
+    for text in ("\n".join([*above, whole, *below]), closed("\n".join([*above, before]))):
         tree = read_data(SourceFile(file.name, text), Diagnostics(), {}) if text is not None else None
         if tree is not None:
             return tree

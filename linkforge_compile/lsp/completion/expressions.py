@@ -149,7 +149,7 @@ def _follow(dotted: str, scope: dict[str, _Name], context: Context, steps: int =
     known = scope.get(name)
     node = known.value if known and steps else None
     if known and known.what == "data" and isinstance(node, YamlScalar):
-        node = _read_data(node, context)
+        node = _read_data(node, scope, context)
     node = _plain(node, scope, context, steps)
     if known and known.what == "of for" and isinstance(node, YamlList):
         node = _plain(node.items[0] if node.items else None, scope, context, steps)
@@ -164,10 +164,16 @@ def _plain(node: YamlNode | None, scope: dict[str, _Name], context: Context, ste
     return _follow(alone[1], scope, context, steps - 1) if alone else node
 
 
-def _read_data(file: YamlScalar, context: Context) -> YamlNode | None:
+def _read_data(file: YamlScalar, scope: dict[str, _Name], context: Context) -> YamlNode | None:
+    """Return the tree of a data file, whose name may depend on the defaults of parameters."""
     spec = context.readable.spec if context.readable else None
     if spec is None:
         return None
     loader, sink = context.settings.loader(context.document.path), Diagnostics()
-    target = locate(PathSite(file.text, file.span, spec, {}), loader, sink)
-    return loader.open_data(target.path, sink, {}, ImportSite(file.text, file.span)) if target else None
+    text = _ALONE.sub(lambda found: _text(_follow(found[1], scope, context)), file.text)
+    target = locate(PathSite(text, file.span, spec, {}), loader, sink)
+    return loader.open_data(target.path, sink, {}, ImportSite(text, file.span)) if target else None
+
+
+def _text(node: YamlNode | None) -> str:
+    return node.text if isinstance(node, YamlScalar) else ""

@@ -112,7 +112,7 @@ def to_item(offer: Offer, order: int, context: Context, client: Client) -> types
     text = offer.text
     if offer.is_snippet and not client.has_snippets:
         text = without_stops(text)
-    begin = context.cursor.word.column if offer.begin is None else offer.begin
+    begin = context.word.column if offer.begin is None else offer.begin
     documentation = offer.markdown if client.has_markdown else offer.plain
     kind = types.MarkupKind.Markdown if client.has_markdown else types.MarkupKind.PlainText
     is_snippet = offer.is_snippet and client.has_snippets

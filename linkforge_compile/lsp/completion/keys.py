@@ -86,10 +86,20 @@ def key_text(key: str, inner: tuple[Described, ...], context: Context) -> str:
     key = escaped(key) + quote
     is_map = any("object" in one.kinds for one in inner) and not any(map(_is_short, inner))
     if context.is_flow:
-        return f"{key}: {{$0}}" if is_map else f"{key}: $0"
+        return _before_next(f"{key}: {{$0}}" if is_map else f"{key}: $0", context)
     if context.is_quoted or not context.cursor.is_own_line:
         return f"{key}: $0"
-    inside = " " * (context.cursor.word.column + 1)
+    return _before_next(_in_block(key, inner, context, is_map=is_map), context)
+
+
+def _before_next(text: str, context: Context) -> str:
+    """Return a key with what separates it from the next one."""
+    indent = " " * (context.word.column - 1)
+    return text + (", " if context.is_flow else f"\n{indent}") if context.precedes_key else text
+
+
+def _in_block(key: str, inner: tuple[Described, ...], context: Context, *, is_map: bool) -> str:
+    inside = " " * (context.word.column + 1)
     if is_map:
         return f"{key}:\n{inside}$0"
     is_list_of_maps = any(is_list(one.schema) and _has_maps(one) for one in inner)
@@ -111,7 +121,7 @@ def _has_maps(branch: Described) -> bool:
 
 def _snippets(context: Context, *, is_empty: bool) -> Iterator[Offer]:
     """Yield the snippets of a new entry, and of an empty object as a whole."""
-    indent = context.cursor.word.column - 1
+    indent = context.word.column - 1
     for branch in context.branches:
         listed = branch.schema.get("defaultSnippets")
         for snippet in map(mapping, listed) if isinstance(listed, list) else ():
@@ -121,4 +131,4 @@ def _snippets(context: Context, *, is_empty: bool) -> Iterator[Offer]:
             text = in_block(body, indent) if context.cursor.is_own_line else entries_in_flow(body)
             label, description = str(snippet["label"]), str(snippet["description"])
             rank = KNOWN if branch.has_names else LIKELY
-            yield Offer(label, text, Kind.Snippet, rank, description, is_snippet=True)
+            yield Offer(label, _before_next(text, context), Kind.Snippet, rank, description, is_snippet=True)

@@ -29,7 +29,8 @@ def offer_values(context: Context) -> list[Offer]:
         offers += _words(branch)
         offers += _snippets(branch)
         offers += () if is_named else _examples(branch)
-    return unique(offers)
+    listed = context.items_around
+    return unique(offer for offer in offers if offer.label not in listed)
 
 
 def _words(branch: Described) -> Iterator[Offer]:
