@@ -34,7 +34,7 @@ class Roots:
         """
         # A spec reached through a link may use files next to the link and next to the spec.
         starts = () if place is None else dict.fromkeys((as_walked(place), *_real((place,))))
-        folders = (*map(_top_of, starts), *named, *search_path("ROS_PACKAGE_PATH"))
+        folders = (*map(top_of, starts), *named, *search_path("ROS_PACKAGE_PATH"))
         installed = tuple(search_path("AMENT_PREFIX_PATH"))
         return cls(_real(folders), installed=installed)
 
@@ -120,7 +120,7 @@ def as_walked(path: Path) -> Path:
     return Path(identity(Path(*steps[:climbed])), *steps[climbed:]) if climbed else Path(*steps)
 
 
-def _top_of(place: Path) -> Path:
+def top_of(place: Path) -> Path:
     """Return the package or repository of a file or folder, else the file's folder or the folder itself."""
     # os.path handles invalid names and paths without access; pathlib raises.
     folder = place if os.path.isdir(place) else place.parent  # noqa: PTH112

@@ -24,6 +24,7 @@ MAY_IMPORT = {
     "diagnostics": "source",
     "limits": "source diagnostics",
     "syntax": "source diagnostics limits units",
+    "formatter": "source diagnostics limits syntax",
     "expressions": "source diagnostics limits units syntax",
     "paths": "source diagnostics syntax expressions roots",
     "schema": "source diagnostics syntax units resources expressions",
@@ -51,12 +52,12 @@ MAY_IMPORT = {
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
-        "analysis source diagnostics syntax schema expressions units load expand listing core export_spec editor roots "
-        "paths resources formats lower _version"
+        "analysis source diagnostics syntax formatter schema expressions units load expand listing core export_spec "
+        "editor roots paths resources formats lower _version"
     ),
     "cli": (
         "banner source diagnostics limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats export_spec compare collisions editor lsp resources file_watcher _version"
+        "importing formats formatter export_spec compare collisions editor lsp resources file_watcher _version"
     ),
 }
 
@@ -193,7 +194,7 @@ def test_files_in_the_guide_exist():
 
 # The layout that the project prescribes, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
-FURTHER = "benchmarks cmake docs"
+FURTHER = "benchmarks cmake docs editors"
 
 
 def test_nothing_else_is_at_the_top_level():

@@ -85,3 +85,21 @@ def test_a_commit_that_only_deletes_a_module_runs_the_hooks(
     code, printed = repository.run_hooks()
     assert code == 1
     assert printed.count("cell.robot.yaml:4:23: error: there is no file 'hand.yaml'") == failures, printed
+
+
+def test_the_format_hook_formats_the_specs_of_a_commit(tmp_path: Path):
+    folder = tmp_path / "robots"
+    folder.mkdir()
+    hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    (hook,) = [{**one, "language": "system"} for one in hooks if one["id"] == "linkforge-format"]
+    (folder / ".pre-commit-config.yaml").write_text(yaml.safe_dump({"repos": [{"repo": "local", "hooks": [hook]}]}))
+    repository = Repository(folder, tmp_path / "bin")
+    (folder / "table.yaml").write_text("a:   [ 1 ]\n")
+    (folder / "cell.robot.yaml").write_text(USING.replace("{base: }", "{ base:  }"))
+    repository.git("add", "--all")
+    code, printed = repository.run_hooks()
+    assert (code, "formatted cell.robot.yaml" in printed) == (1, True), printed
+    assert (folder / "cell.robot.yaml").read_text() == USING
+    assert (folder / "table.yaml").read_text() == "a:   [ 1 ]\n"
+    repository.git("add", "--all")
+    assert repository.run_hooks()[0] == 0

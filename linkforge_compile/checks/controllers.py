@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
-from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER
+from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
 from linkforge_compile.core.models.manager_parameters import (
     CONTROLLER,
     HARDWARE,
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
     from linkforge_compile.source import SourceRef
 
-_JOINTS = ("joints", "left_wheels", "right_wheels")
-
 
 def check_names_in_controllers(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """The joints, the planning group, the sensor and the frame of a controller are of this robot.
@@ -39,8 +38,9 @@ def check_names_in_controllers(robot: Robot, unresolved: UnresolvedNames) -> Ite
     if not robot.controllers:
         return
     groups = [group.name for group in robot.semantic.groups] if robot.has_semantic else []
-    yield from report_unknown(_references(robot, *_JOINTS), UNKNOWN_JOINT, robot.joints.names, unresolved)
-    yield from report_unknown(_references(robot, "frame"), UNKNOWN_LINK, robot.links.names, unresolved)
+    joints, links = robot.joints.names, robot.links.names
+    yield from report_unknown(_references(robot, *JOINT_FIELDS, known=joints), UNKNOWN_JOINT, joints, unresolved)
+    yield from report_unknown(_references(robot, "frame", known=links), UNKNOWN_LINK, links, unresolved)
     yield from report_unknown(_references(robot, "group"), UNKNOWN_GROUP, groups, unresolved, hint="")
     if robot.ros2_controls:
         # A gpio or a joint may have the interfaces of a sensor as well.
@@ -76,14 +76,21 @@ def _source_of(name: str) -> SourceRef | None:
     return name.source if isinstance(name, SourcedText) else None
 
 
-def _references(robot: Robot, *keys: str) -> Iterator[Reference]:
-    """Yield the names in some fields of the controllers: one, or a list of them."""
-    for controller in robot.controllers:
+def _references(robot: Robot, *fields: str, known: Collection[str] = ()) -> Iterator[Reference]:
+    """Yield the names in some fields of the controllers: one, or a list of them.
+
+    Without those in `parameters` that lack the prefix of their module, which are reported where it gets the prefix:
+    with it, they are `known`.
+    """
+    for controller in map(lift_parameters, robot.controllers):
         user = f"controller '{controller.name}'"
-        for key in keys:
-            value = getattr(controller, key)
+        prefix = Reference(controller.name, "", controller.source).prefix
+        for field in fields:
+            value, path = getattr(controller, field), path_of_field(controller, field)
+            is_field = path == (field,) or not prefix
             if isinstance(value, str):
-                yield Reference(value, user, controller.source, (key,))
+                references = [Reference(value, user, controller.source, path)]
             else:
                 places = enumerate(value or ())
-                yield from (Reference(name, user, controller.source, (key, place)) for place, name in places)
+                references = [Reference(name, user, controller.source, (*path, place)) for place, name in places]
+            yield from (one for one in references if is_field or prefix + one.name not in known)

@@ -8,7 +8,14 @@ from collections.abc import Iterator
 
 from linkforge_compile.checks.names import Reference, report_cycles, report_unknown
 from linkforge_compile.core.constants import UNKNOWN
-from linkforge_compile.core.models.joint import Joint, JointLimits, JointMimic, JointSafetyController, JointType
+from linkforge_compile.core.models.joint import (
+    SINGLE_AXIS,
+    Joint,
+    JointLimits,
+    JointMimic,
+    JointSafetyController,
+    JointType,
+)
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
@@ -109,9 +116,6 @@ def _range(joint: Joint, lower: float | None, upper: float | None, unit: str | N
     return " ".join((*bounds, *(() if unit else (WITHIN_LIMITS[joint.type],))))
 
 
-AXIS_JOINTS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
-"""The types whose position is one number, which is all that a mimic can multiply."""
-
 FASTEST: dict[str, float] = {JointType.REVOLUTE: 20 * math.pi, JointType.PRISMATIC: 20.0}
 """A faster joint has its speed in other units [rad/s] or [m/s]: fast legs have 40 rad/s."""
 
@@ -150,7 +154,7 @@ def check_mimic_freedom(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
         if joint.mimic is None:
             continue
         leader = robot.joints.get(joint.mimic.joint)
-        if leader and leader is not joint and not {joint.type, leader.type}.issubset(AXIS_JOINTS):
+        if leader and leader is not joint and not {joint.type, leader.type}.issubset(SINGLE_AXIS):
             ref = _mimic(joint, joint.mimic)
             yield ref.report(MIMIC_FREEDOM, joint=joint.name, type=joint.type, leader=leader.name, led=leader.type)
 
@@ -242,7 +246,7 @@ def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """
     for joint in robot.joints:
         limits = joint.limits
-        if joint.type not in AXIS_JOINTS or limits is None or joint.mimic:
+        if joint.type not in SINGLE_AXIS or limits is None or joint.mimic:
             continue
         none = [field for field in ("effort", "velocity") if getattr(limits, field) == 0]
         if none:

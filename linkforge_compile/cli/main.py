@@ -15,6 +15,7 @@ from linkforge_compile.cli import INTERNAL_FAULT, INTERRUPTED, OK, WRONG_USAGE, 
 
 if TYPE_CHECKING:
     import argparse
+    from types import ModuleType
 
     from linkforge_compile.cli.options import Parser
 
@@ -23,6 +24,7 @@ COMMANDS = {
     "compile": "compile a spec to URDF, SRDF and other formats",
     "watch": "compile a spec, and again whenever one of its files changes",
     "check": "report all errors and warnings of specs, without writing anything",
+    "format": "format the white space of specs, and nothing else",
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
@@ -35,6 +37,7 @@ COMMANDS = {
     "deps": "list the files from which a robot is compiled",
     "lsp": "start the language server, as editors do",
     "matcher": "print the problem matcher for GitHub Actions",
+    "completion": "print the script with which bash, zsh or fish complete these commands",
 }
 """Each command with its summary; the module of the same name in `cli.commands` has `add_arguments` and `run`."""
 
@@ -52,6 +55,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Scripts and shell prompts ask for the version often: answer without importing argparse.
         print(f"linkforge {__version__}")
         return OK
+    if arguments is None and "_ARGCOMPLETE" in os.environ:  # a shell asks how a line may go on
+        from linkforge_compile.cli.completion.finder import complete
+
+        complete(COMMANDS, _parser_of)
     try:
         return _run(words)
     except KeyboardInterrupt:
@@ -79,16 +86,11 @@ def _require_utf8() -> None:
 def _run(words: list[str]) -> int:
     if not words or words[0] not in COMMANDS:
         return _run_without_command(words)
-    from importlib import import_module
-
     name, *rest = words
-    # `import` is a keyword of Python, so its module is `import_`.
-    command = import_module(f"linkforge_compile.cli.commands.{name.replace('import', 'import_')}")
-    parser = _make_parser(f"linkforge {name}", COMMANDS[name], command.add_arguments)
     # Intermixed, so that `linkforge compile arm.robot.yaml -o build/ reach:=0.7` works as with ROS's tools.
-    arguments = parser.parse_words(rest)
+    arguments = _parser_of(name).parse_words(rest)
     try:
-        code: int = command.run(arguments)
+        code: int = _module_of(name).run(arguments)
     except UsageError as error:
         return _report_usage_error(name, str(error))
     except OSError as error:
@@ -97,6 +99,17 @@ def _run(words: list[str]) -> int:
             raise
         return _report_usage_error(name, reason)
     return code
+
+
+def _module_of(command: str) -> ModuleType:
+    from importlib import import_module
+
+    # `import` is a keyword of Python, so its module is `import_`.
+    return import_module(f"linkforge_compile.cli.commands.{command.replace('import', 'import_')}")
+
+
+def _parser_of(command: str) -> Parser:
+    return _make_parser(f"linkforge {command}", COMMANDS[command], _module_of(command).add_arguments)
 
 
 def _run_without_command(words: list[str]) -> int:

@@ -222,11 +222,20 @@ def compile_spec(
     return compile_path(spec, settings)
 
 
-def check_spec(spec: str, assignments: list[str], arguments: argparse.Namespace, variant: str | None) -> Compilation:
-    """Check a spec, in a variant, with the other options of `add_spec_options`."""
+def check_spec(
+    spec: str,
+    assignments: list[str],
+    arguments: argparse.Namespace,
+    variant: str | None,
+    buffers: Mapping[str, str] = MappingProxyType({}),
+) -> Compilation:
+    """Check a spec, in a variant, with the other options of `add_spec_options`.
+
+    `buffers` are texts that are read instead of files, by real path.
+    """
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = check_settings_of(assignments, arguments)._replace(variant=variant)
+    settings = check_settings_of(assignments, arguments)._replace(variant=variant, buffers=buffers)
     if spec == "-":
         return compile_source(read_stdin(), STDIN, Path.cwd(), settings)
     return compile_path(spec, settings)

@@ -53,14 +53,13 @@ class Targets(NamedTuple):
     def folders(self, installed_in: Sequence[str]) -> Mapping[str, Path]:
         """Return the folders where relative paths in the documents start, by format, as far as they are known.
 
-        `installed_in` has the final folder of all of them, or `FORMAT=FOLDER`.
+        `installed_in` has the final folder of all of them, or `FORMAT=FOLDER`; UsageError for an unknown format.
         """
         finals: dict[str, Path] = {}
-        names = [one.name for one in formats.FORMATS]
         for word in installed_in:
-            name, equals, folder = word.partition("=")
-            is_of_one = bool(equals) and name in names
-            finals |= {name: Path(folder)} if is_of_one else dict.fromkeys(names, Path(word)) | finals
+            name, folder = _format_and_folder(word)
+            every = dict.fromkeys((one.name for one in formats.FORMATS), folder)
+            finals = finals | {name: folder} if name else every | finals
         folders = {}
         for one in map(formats.format_named, self.formats):
             path = Path(finals[one.name], "" if one.files else "NAME") if one.name in finals else self.paths[one.name]
@@ -78,6 +77,20 @@ class Targets(NamedTuple):
             path is None or (path.exists() and not (path.is_file() or path.is_dir())) for path in self.paths.values()
         ):
             raise UsageError(f"{option} {why}, so it takes -o with a folder or a file")
+
+
+def _format_and_folder(word: str) -> tuple[str | None, Path]:
+    """Return the format, None for all of them, and the folder of `--installed-in`; UsageError for an unknown format.
+
+    A folder with a `=` in its name has a `/` before it: `./a=b`.
+    """
+    name, equals, folder = word.partition("=")
+    if not equals or "/" in name or "\\" in name:
+        return None, Path(word)
+    try:
+        return formats.format_named(name).name, Path(folder)
+    except ValueError as error:
+        raise UsageError(f"--installed-in: {error}; for a folder of that name, write './{word}'") from None
 
 
 def add_target_options(parser: argparse.ArgumentParser) -> None:

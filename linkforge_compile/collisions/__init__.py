@@ -10,5 +10,6 @@ Each module imports only those above it:
     sampling   sample positions, and give each pair its reason
     modules    which modules declare pairs of their own, so that they are not sampled inside
     matrix     put together what is declared and what is found
+    poses      find which pairs collide in the named states of groups
     section    the text of `disabled_collisions`
 """

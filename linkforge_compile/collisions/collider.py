@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import coal
@@ -75,9 +75,25 @@ class Collider:
                 found.add(self._pairs[place])
         return found
 
+    def depths(self, positions: NDArray[np.float64]) -> dict[Pair, float | None]:
+        """Return the selected pairs that collide at the positions of the moving bodies, and how deep [m].
+
+        The depth is that of the convex hulls, None for a mesh that has none.
+        """
+        depths: dict[Pair, float | None] = {}
+        for pair in sorted(self.colliding(positions)):
+            places = [at for at in self._places[pair] if pin.computeCollision(self._exact, self._exact_data, at)]
+            deepest = max(-pin.computeDistance(self._hulls, self._hull_data, at).min_distance for at in places)
+            depths[pair] = deepest if deepest > 0 else None
+        return depths
+
+    def positions_with(self, given: Mapping[int, float]) -> NDArray[np.float64]:
+        """Return the positions of the default pose with those that are given by the places of their bodies."""
+        return self._followed([given.get(place, motion.default) for place, motion in self._motions])
+
     def default_positions(self) -> NDArray[np.float64]:
         """Return the positions of the moving bodies in the default pose."""
-        return self._followed([motion.default for _, motion in self._motions])
+        return self.positions_with({})
 
     def random_positions(self, generator: np.random.Generator) -> NDArray[np.float64]:
         """Return positions that are evenly distributed within the limits."""

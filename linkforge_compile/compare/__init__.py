@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from linkforge_compile.compare.context import TOLERANCE
 from linkforge_compile.compare.difference import Difference, Kind, Plain
 from linkforge_compile.compare.folders import with_folders
 from linkforge_compile.compare.matching import RemovedName, removed_public_names
 from linkforge_compile.compare.robots import compare
-from linkforge_compile.compare.walk import TOLERANCE
 
 __all__ = [
     "TOLERANCE",

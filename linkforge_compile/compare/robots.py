@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from linkforge_compile.compare.context import TOLERANCE, CompareContext
 from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.fields import compared_fields, compared_value, key_of_field
 from linkforge_compile.compare.matching import Renames, apply_renames, find_renames
-from linkforge_compile.compare.walk import TOLERANCE, CompareContext, stated_differences, walk
+from linkforge_compile.compare.walk import stated_differences, walk
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
 

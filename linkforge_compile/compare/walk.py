@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
 
+from linkforge_compile.compare.context import CompareContext
 from linkforge_compile.compare.derived import order_differences, pose_differences, tensor_differences
-from linkforge_compile.compare.difference import Difference, Kind, describe, describe_texts, shorten, to_json, to_plain
+from linkforge_compile.compare.difference import Difference, Kind, describe, to_plain
 from linkforge_compile.compare.fields import (
     BARE,
-    Measure,
     RawElement,
     compared_fields,
     compared_value,
@@ -17,104 +17,21 @@ from linkforge_compile.compare.fields import (
     is_near,
     is_part,
     key_of_field,
-    measure_of,
     position_measure,
     spell_same_numbers,
     xml_number,
 )
 from linkforge_compile.compare.matching import key_of_member, pair_members
-from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.geometry import Color, Material, Transform, Vector3
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.link import InertiaTensor, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.models.ros2_control import (
-    Interface,
-    Ros2Control,
-    Ros2ControlGpio,
-    Ros2ControlJoint,
-    Ros2ControlSensor,
-)
+from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.models.sensor import SensorNoise
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 
-TOLERANCE = 1e-6
-"""Default tolerance: in metres and radians for poses, relative for other numbers."""
-
-_DIGITS = (6, 9, 13, 17)
-"""Significant digits to try until two numbers look different."""
-
-_MAX_STATE = 200
-"""Characters shown of a group state that was added or removed."""
-
-_XML_FIELDS = frozenset({"parameters", "properties", "extra_attributes", "extra_elements"})
-"""Fields whose texts an author wrote as XML."""
-
-_WITH_PLUGIN_PARAMETERS = (GazeboPlugin, Ros2Control, Ros2ControlJoint, Ros2ControlGpio, Ros2ControlSensor)
-"""Parts whose `parameters` a plugin reads as text: to a driver, firmware 1.10 is not 1.1."""
-
 Path: TypeAlias = tuple[str, ...]
-
-
-class CompareContext(NamedTuple):
-    """What the comparison of a value depends on.
-
-    Each pair is for the robot before and the robot after: `prismatic_joints` their names, `slides` whether the value
-    is about one of them, `measures` what the value measures, `palettes` the materials that the robots declare.
-    In an author's XML, `in_xml`, numbers have several spellings, unless each is another text, `as_spelt`.
-    """
-
-    tolerance: float = TOLERANCE
-    prismatic_joints: tuple[Collection[str], Collection[str]] = ((), ())
-    palettes: tuple[Mapping[str, Material], Mapping[str, Material]] = ({}, {})
-    slides: tuple[bool, bool] = (False, False)
-    measures: tuple[Measure, Measure] = (BARE, BARE)
-    in_xml: bool = False
-    as_spelt: bool = False
-
-    def describe(self, before: object, after: object) -> tuple[str, str]:
-        """Return two different values in a few words each, with enough digits to show the difference."""
-        if type(before) is str and type(after) is str:
-            return describe_texts(before, after)
-        if isinstance(before or after, GroupState):
-            prismatic_before, prismatic_after = self.prismatic_joints
-            return _describe_state(before, prismatic_before), _describe_state(after, prismatic_after)
-        both = tuple(zip((before, after), self.measures, self.slides, strict=True))
-        for digits in _DIGITS:
-            one, other = (describe(value, measure, slides=slides, digits=digits) for value, measure, slides in both)
-            if one != other:
-                return one, other
-        return to_json(before), to_json(after)
-
-    def for_joint(self, name: str) -> CompareContext:
-        """Return the context of values about a joint."""
-        before, after = (name in joints for joints in self.prismatic_joints)
-        return self._replace(slides=(before, after))
-
-    def for_section(self, field: str) -> CompareContext:
-        """Return the context of a field whose numbers have no unit."""
-        return self._replace(in_xml=True) if field in _XML_FIELDS else self
-
-    def for_field(self, part: object, field: str) -> CompareContext:
-        """Return the context of a field of a part."""
-        before, after = (measure_of(type(part), field, slides=slides) for slides in self.slides)
-        as_spelt = self.as_spelt or (field == "parameters" and isinstance(part, _WITH_PLUGIN_PARAMETERS))
-        return self.for_section(field)._replace(measures=(before, after), as_spelt=as_spelt)
-
-    def for_tag(self, tag: str) -> CompareContext:
-        """Return the context of what is in an element of an author's XML."""
-        return self._replace(as_spelt=True) if tag == "plugin" else self
-
-
-def _describe_state(state: object, prismatic: Collection[str]) -> str:
-    if not isinstance(state, GroupState):
-        return describe(state)
-    positions = (
-        f"{joint} {describe(values, position_measure(slides=joint in prismatic))}"
-        for joint, values in state.joint_values.items()
-    )
-    return shorten(", ".join(positions), _MAX_STATE) or describe(state)
 
 
 def walk(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Hashable, Iterable
-from dataclasses import dataclass
+from collections.abc import Collection, Hashable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TypeAlias
 
-from linkforge_compile.diagnostics.suggest import did_you_mean
+from linkforge_compile.diagnostics.fix import Fix, Replacement
+from linkforge_compile.diagnostics.suggest import is_other_case, suggested
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.source.provenance import Location, Provenance, provenance_of
@@ -61,6 +62,8 @@ class Diagnostic:
     """The facts that agree in a group."""
     members: tuple[Diagnostic, ...] = ()
     """All diagnostics of the group that this one reports, empty for a single diagnostic."""
+    fixes: tuple[Fix, ...] = ()
+    """The ways to correct it by edits, the most likely first; of a group, those of its first member."""
 
     @property
     def severity(self) -> Severity:
@@ -80,6 +83,14 @@ class Diagnostic:
             return None
         remarks = tuple(note.message for note in self.notes if note.span is None)
         return self.code.id, self.severity, self.span.file.name if self.span else "", self.grouped_by, remarks
+
+    def replacing(self, old: str, new: str, *, is_safe: bool = False, is_whole: bool = False) -> Diagnostic:
+        """Return it with the fix of a Replacement in its span; the same diagnostic if that is not possible."""
+        return self.with_fix(Replacement(old, new, is_safe, is_whole).within(self.span))
+
+    def with_fix(self, fix: Fix | None) -> Diagnostic:
+        """Return it with one more fix; the same diagnostic for None."""
+        return replace(self, fixes=(*self.fixes, fix)) if fix else self
 
     def __str__(self) -> str:
         place = f"{self.span}: " if self.span else ""
@@ -107,6 +118,8 @@ class Code:
     """The fact that names the part at fault, if many parts have this fault for one cause: they are grouped."""
     grouped_by: tuple[str, ...] = ()
     """The facts that agree in a group."""
+    fix: Replacement | None = None
+    """What to write in the diagnostic's span, with facts as `{name}` fields; a fix only where these are given."""
 
     @property
     def title(self) -> str:
@@ -135,7 +148,9 @@ class Code:
         chain = provenance_of(where, *path, location=self.location) if where else None
         span = chain.span if chain else None
         sentence = self.in_xml if self.in_xml and span and span.file.is_xml else self.message
-        whole = sentence.format(**facts) + did_you_mean(str(facts.get("name", "")), near)
+        near = near if isinstance(near, Collection) else tuple(near)
+        suggestion = suggested(str(facts.get("name", "")), near)
+        whole = sentence.format(**facts) + (f"; did you mean '{suggestion}'?" if suggestion else "")
         full_text_hash = hash(whole) if len(whole) > _LONGEST else 0
         all_notes = (*notes, *notes_of(chain))
         subject = str(facts[self.subject]) if self.subject else ""
@@ -148,7 +163,22 @@ class Code:
             full_text_hash=full_text_hash,
             subject=subject,
             grouped_by=grouped_by,
+            fixes=tuple(filter(None, (self._own_fix(span, facts), _fix_name(span, facts, suggestion, near)))),
         )
+
+    def _own_fix(self, span: Span | None, facts: Mapping[str, object]) -> Fix | None:
+        """Return the fix of this kind of fault with the facts of one diagnostic, None if there is none."""
+        filled = self.fix.filled(facts) if self.fix else None
+        return filled.within(span) if filled else None
+
+
+def _fix_name(span: Span | None, facts: Mapping[str, object], new: str | None, near: Collection[str]) -> Fix | None:
+    """Return the fix that writes the suggested name; safe if it is the only one that differs in letter case alone."""
+    if new is None:
+        return None
+    old = str(facts["name"])
+    named = Replacement(old, new, is_safe=new.casefold() == old.casefold() and is_other_case(old, near))
+    return named.within(span) if named.is_word_for(span) else None
 
 
 def notes_of(chain: Iterable[Provenance] | None) -> tuple[Note, ...]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from linkforge_compile.diagnostics.diagnostic import Code, Diagnostic, Severity
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import on_one_line
 
@@ -34,10 +35,16 @@ def render_json(diagnostics: Iterable[Diagnostic]) -> str:
             **_json_place(diagnostic.span),
             "notes": [{"message": note.message, **_json_place(note.span)} for note in diagnostic.notes],
             "help": diagnostic.code.help,
+            "fixes": [_json_fix(fix) for fix in diagnostic.fixes],
         }
         for diagnostic in diagnostics
     ]
     return json.dumps({"version": JSON_VERSION, "diagnostics": listed}, ensure_ascii=False, indent=2) + "\n"
+
+
+def _json_fix(fix: Fix) -> dict[str, object]:
+    edits = [{**_json_place(edit.span), "text": edit.text} for edit in fix.edits]
+    return {"title": fix.title, "is_safe": fix.is_safe, "edits": edits}
 
 
 def _json_place(span: Span | None) -> dict[str, object]:
@@ -145,17 +152,35 @@ def _sarif_result(diagnostic: Diagnostic, rule: int, root: Path) -> dict[str, ob
         for note in diagnostic.notes
         if note.span
     ]
-    return {**result, "relatedLocations": related} if related else result
+    fixes = [_sarif_fix(fix, root) for fix in diagnostic.fixes]
+    return result | ({"relatedLocations": related} if related else {}) | ({"fixes": fixes} if fixes else {})
+
+
+def _sarif_fix(fix: Fix, root: Path) -> dict[str, object]:
+    changes: dict[SourceFile, list[dict[str, object]]] = {}
+    for edit in fix.edits:
+        replacement = {"deletedRegion": _sarif_region(edit.span), "insertedContent": {"text": edit.text}}
+        changes.setdefault(edit.span.file, []).append(replacement)
+    return {
+        "description": {"text": fix.title},
+        "artifactChanges": [
+            {"artifactLocation": _sarif_artifact(file, root), "replacements": replacements}
+            for file, replacements in changes.items()
+        ],
+    }
 
 
 def _sarif_place(span: Span, root: Path) -> dict[str, object]:
-    region = {
+    return {"artifactLocation": _sarif_artifact(span.file, root), "region": _sarif_region(span)}
+
+
+def _sarif_region(span: Span) -> dict[str, object]:
+    return {
         "startLine": span.line,
         "startColumn": span.column,
         "endLine": span.end_line,
         "endColumn": span.end_column,
     }
-    return {"artifactLocation": _sarif_artifact(span.file, root), "region": region}
 
 
 def _sarif_artifact(file: SourceFile, root: Path) -> dict[str, object]:

@@ -105,7 +105,18 @@ def _without_prefix(name: str, candidates: Iterable[str]) -> str | None:
     return min(same, key=lambda other: abs(len(other) - len(name))) if same else None
 
 
+def suggested(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate most like `name` and not equal to it; None if there is none."""
+    candidate = nearest(name, candidates)
+    return candidate if candidate != name else None
+
+
+def is_other_case(name: str, candidates: Iterable[str]) -> bool:
+    """Whether exactly one of the candidates has the same letters in another case."""
+    return sum(other.casefold() == name.casefold() for other in {*candidates}) == 1
+
+
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:
     """Return such as "; did you mean 'forearm'?"; "" if no candidate is like the name."""
-    candidate = nearest(name, candidates)
-    return f"; did you mean '{candidate}'?" if candidate is not None and candidate != name else ""
+    candidate = suggested(name, candidates)
+    return f"; did you mean '{candidate}'?" if candidate else ""

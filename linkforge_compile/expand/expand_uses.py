@@ -94,6 +94,7 @@ class _Expander:
             removed=removed,
             packages=scope.packages,
             defaults=defaults,
+            overrides=tuple(one.patch for one in use.entry.overrides) if use.entry else (),
         )
 
     def _expand_module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:

@@ -45,6 +45,7 @@ class Instance:
     - `removed`: the names that a `when` or an override removed.
     - `packages`: the package folders that the file declares.
     - `defaults`: the computed defaults, None for none; the tree has them merged in.
+    - `overrides`: the computed overrides for this use, which the tree has merged in, with the names in its file.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Instance:
     removed: DeletedNames = field(default_factory=DeletedNames)
     packages: Mapping[str, Path] = field(default_factory=dict)
     defaults: YamlMap | None = None
+    overrides: tuple[YamlMap, ...] = ()
 
     @property
     def with_modules(self) -> Iterator[Instance]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.explain import ComputedFrom, Explanation, UnknownPathError, explain
+from linkforge_compile.export_spec.explain import ComputedFrom, Explanation, UnknownPathError, explain, parts_at
 from linkforge_compile.export_spec.provenance import origin_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.syntax.writer import write
@@ -15,6 +15,7 @@ __all__ = [
     "SpecBuilder",
     "UnknownPathError",
     "explain",
+    "parts_at",
     "spec_of",
     "write_spec",
 ]

@@ -90,6 +90,26 @@ def explain(robot: Robot, path: str) -> Explanation:
     return _written(source, node, text, _replaced(source.node, steps[last].key, keys), computed)
 
 
+def parts_at(robot: Robot, path: str) -> dict[str, bool]:
+    """Return what is at a path that `explain` accepts, "" for the robot, by key, name or position.
+
+    True is for what has parts of its own, False for a value.
+
+    Raises:
+        UnknownPathError: where the path leads nowhere.
+        RobotGeneratorError: for two parts of one name.
+
+    """
+    whole = spec_of(robot, SpecBuilder(full=True))
+    (*_, last) = (_Step("", whole), *_steps(whole, path.strip("/"), ""))
+    match last.node:
+        case YamlMap():
+            return {name: bool(_names(entry.value)) for name, entry in last.node.entries.items()}
+        case YamlList():
+            return {str(place): bool(_names(item)) for place, item in enumerate(last.node)}
+    return {}
+
+
 def _without_defaults(robot: Robot, path: Sequence[str], node: YamlNode) -> YamlNode:
     """Return a map without its defaults, in short forms; the node itself where a spec without them has no such map."""
     if not path or not isinstance(node, YamlMap):

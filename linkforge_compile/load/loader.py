@@ -165,6 +165,10 @@ class Loader:
             self._xml[real] = source
         return self._xml[real]
 
+    def open_text(self, path: Path, sink: Diagnostics) -> SourceFile | None:
+        """Read the text of a file that the command line names; None after a reported error."""
+        return self._read(path, None, sink)
+
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: ImportSite) -> YamlNode | None:
         """Read a YAML file of any shape that may hold `tags`; None after a reported error."""
         real = identity(path)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
@@ -18,6 +20,10 @@ from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
+from linkforge_compile.lsp.formatting import format_edits
+from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
+from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.symbols import find_symbols, outline
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
 
@@ -55,18 +61,19 @@ class SpecServer(LanguageServer):
             self._publish()
 
     async def _analyse(self) -> None:
-        """Analyse what is pending. The thread gets values only; the loop alone changes what is known."""
+        """Analyse what is pending."""
         async with self._analysing:
             while pending := self.specs.pending():
                 path, settings = pending[0], self.specs.begin(pending[0])
-                analysis = await self._in_thread(partial(analyse_path, path, settings))
+                analysis = await self.in_thread(partial(analyse_path, path, settings))
                 includers: Iterable[Path] = ()
                 if is_part(analysis) and identity(path) in self.specs.buffers:
-                    users = await self._in_thread(partial(find_users, path, self.specs.folders, settings))
+                    users = await self.in_thread(partial(find_users, path, self.specs.folders, settings))
                     includers = [user for user, one in users.items() if not is_part(one)]
                 self.specs.keep(path, analysis, includers)
 
-    def _in_thread(self, work: Callable[[], _Result]) -> asyncio.Future[_Result]:
+    def in_thread(self, work: Callable[[], _Result]) -> asyncio.Future[_Result]:
+        """Do what takes long in the thread that analyses; it may use values only, as the loop changes what is known."""
         return asyncio.get_running_loop().run_in_executor(self._analyser, work)
 
     def _publish(self) -> None:
@@ -89,13 +96,29 @@ class SpecServer(LanguageServer):
         await self._analyse()
         return self.document(uri)
 
+    async def analysed_with_users(self, uri: str) -> Document | None:
+        """Return what is known of an open spec, and of the specs in the workspace that read it."""
+        document = await self.analysed(uri)
+        if document is None:
+            return None
+        find = partial(find_users, document.path, self.specs.folders, self.specs.settings())
+        known = {identity(one.compilation.files[0]) for one in document.analyses if one.compilation.files}
+        users = await self.in_thread(find)
+        others = (one for path, one in users.items() if identity(path) not in known)
+        return document._replace(analyses=(*document.analyses, *others))
+
 
 def make_server() -> SpecServer:
     """Return a server with all features, not started."""
     server = SpecServer()
     _add_synchronization(server)
     _add_structure(server)
+<<<<<<< HEAD
     _add_completion(server)
+=======
+    _add_navigation(server)
+    _add_rename(server)
+>>>>>>> main
     return server
 
 
@@ -151,3 +174,68 @@ def _add_structure(server: SpecServer) -> None:
     def _fold(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
         document = server.document(params.text_document.uri)
         return folding_ranges(document.file) if document else []
+
+    @server.feature(types.TEXT_DOCUMENT_FORMATTING)
+    def _format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        document = server.document(params.text_document.uri)
+        return format_edits(document) if document else []
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    async def _outline(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
+        document = await server.analysed(params.text_document.uri)
+        return outline(document) if document else []
+
+    @server.feature(types.WORKSPACE_SYMBOL)
+    async def _find(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
+        specs = server.specs
+        return await server.in_thread(
+            partial(find_symbols, params.query, specs.folders, specs.settings(), server.columns)
+        )
+
+
+def _add_navigation(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
+    async def _define(params: types.DefinitionParams) -> list[types.Location]:
+        document = await server.analysed(params.text_document.uri)
+        return declarations_of(document, document.place(params.position)) if document else []
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    async def _refer(params: types.ReferenceParams) -> list[types.Location]:
+        document = await server.analysed_with_users(params.text_document.uri)
+        is_wanted = params.context.include_declaration
+        at = document.place(params.position) if document else None
+        return references_to(document, at, with_declarations=is_wanted) if document and at else []
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    async def _highlight(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+        document = await server.analysed(params.text_document.uri)
+        return highlights(document, document.place(params.position)) if document else []
+
+
+def _add_rename(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    async def _prepare(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+        document = await server.analysed_with_users(params.text_document.uri)
+        with _refusals():
+            target = renamed_at(document, document.place(params.position)) if document else None
+        if document is None or target is None:
+            return None
+        return types.PrepareRenamePlaceholder(document.columns.range(target[0]), target[0].text or "")
+
+    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    async def _rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
+        document = await server.analysed_with_users(params.text_document.uri)
+        if document is None:
+            return None
+        at, settings = document.place(params.position), server.specs.settings()
+        with _refusals():
+            return await server.in_thread(partial(rename, document, at, params.new_name, settings))
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """Answer a request that is refused with the reason, which editors show."""
+    try:
+        yield
+    except RefusedError as error:
+        raise JsonRpcException(str(error), types.LSPErrorCodes.RequestFailed.value) from None

@@ -12,13 +12,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from lsprotocol import types
+
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 from linkforge_compile.editor.folders import SPEC_ENDINGS, TooManyFilesError, find_specs
 from linkforge_compile.expand import Unset
 from linkforge_compile.lsp.convert import Columns
 from linkforge_compile.roots import identity
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import Position, SourceFile, Span
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_text
 
@@ -50,6 +52,10 @@ class Document(NamedTuple):
     def analysis(self) -> Analysis | None:
         """The analysis of the spec that the text is or belongs to."""
         return self.analyses[0] if self.analyses else None
+
+    def place(self, at: types.Position) -> Position:
+        """Return the place of a position of the protocol in this text."""
+        return self.columns.place(self.file, at)
 
     def holds(self, span: Span) -> bool:
         """Whether a place is in this text."""
@@ -166,7 +172,7 @@ def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[
 
 def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str]) -> list[Path]:
     """Return the specs that name a file, those that name these, and so on."""
-    texts = {spec: _text(spec, buffers) for folder in folders for spec in _specs_in(folder)}
+    texts = {spec: _text(spec, buffers) for folder in folders for spec in specs_in(folder)}
     found: dict[Path, None] = {}
     names = [path.name]
     while names:
@@ -177,7 +183,7 @@ def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str])
     return list(found)
 
 
-def _specs_in(folder: Path) -> tuple[Path, ...]:
+def specs_in(folder: Path) -> tuple[Path, ...]:
     """Return the specs in a folder; none if these are more than a repository of robots has."""
     try:
         return find_specs(folder)

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
 from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
-from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
+from linkforge_compile.schema.findings import Finding, merge_missing_levels
+from linkforge_compile.schema.hint_rules import value_hint, word_hint
+from linkforge_compile.schema.hints import renamed_key
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
+from linkforge_compile.schema.number_texts import is_row
 from linkforge_compile.schema.registry import HEADER, linked, plain
 from linkforge_compile.schema.shapes import (
     FREE,
@@ -35,10 +38,11 @@ from linkforge_compile.schema.shapes import (
     shortened,
     words_of,
 )
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
+from linkforge_compile.syntax.fixes import replace_like_spaces, space_after_colon
 from linkforge_compile.syntax.nodes import (
     YamlEntry,
     YamlFault,
@@ -53,9 +57,6 @@ from linkforge_compile.syntax.nodes import (
 
 if TYPE_CHECKING:
     from jsonschema.exceptions import ValidationError
-
-
-_LEVEL_HINT = "; so are all entries here: is a line with a name missing above, or the indentation wrong?"
 
 
 def report_mismatches(tree: YamlMap, sink: Diagnostics, *, is_included: bool) -> YamlMap:
@@ -122,7 +123,7 @@ def _report(tree: YamlMap, findings: Sequence[Finding], sink: Diagnostics) -> Ya
     """Report the findings in the order of the file; return the tree without their nodes."""
     if not findings:
         return tree
-    findings = _merge_missing_levels(findings, tree)
+    findings = merge_missing_levels(findings, tree)
     found = [(one.diagnostic, tuple(join_links(aliases_of(SourceRef(tree), *one.path)) or ())) for one in findings]
     # If several aliases of one anchor do not match, the sink keeps the first; jsonschema's order is that of a set.
     for diagnostic, aliases in sorted(found, key=lambda one: (one[0].order, [alias.span.start for alias in one[1]])):
@@ -157,55 +158,8 @@ def _prune(tree: YamlMap, findings: Iterable[Finding]) -> YamlMap:
     return prune_map(tree, ())
 
 
-# A missing level of names: every entry of a map is then wrong in the same way, and reported once
-
-
-def _merge_missing_levels(findings: Sequence[Finding], tree: YamlMap) -> list[Finding]:
-    """Merge the findings on all entries of a map that are of the same wrong kind, and those on all maps of such."""
-    groups: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
-    for finding in sorted(findings, key=lambda one: one.diagnostic.order):
-        if finding.wrong_kind:
-            groups[finding.path[:-1], finding.wrong_kind].append(finding)
-    complete = {key: group for key, group in groups.items() if _is_every_entry(tree, key[0], len(group))}
-    above: dict[tuple[Path, int], list[Finding]] = defaultdict(list)
-    for (path, kind), group in complete.items():
-        above[path[:-1], kind].append(_merge(group))
-    merged: list[Finding] = []
-    for (path, _), group in above.items():
-        merged += [_merge(group)] if _is_every_entry(tree, path, len(group)) else group
-    replaced = {id(finding) for group in complete.values() for finding in group}
-    return [*(finding for finding in findings if id(finding) not in replaced), *merged]
-
-
-def _is_every_entry(tree: YamlMap, path: Path, count: int) -> bool:
-    """Whether a map has this many entries with a value, and more than one."""
-    node = node_at(tree, path)
-    entries = [entry for entry in node if not is_null(entry.value)] if isinstance(node, YamlMap) else []
-    return count > 1 and len(entries) == count
-
-
-def _merge(group: Sequence[Finding]) -> Finding:
-    first, *others = group
-    message = first.diagnostic.message.removesuffix(_LEVEL_HINT) + _LEVEL_HINT
-    also = (*first.also, *(path for other in others for path in (other.path, *other.also)))
-    return Finding(replace(first.diagnostic, message=message), first.path, also, first.wrong_kind)
-
-
 _MOST_COMPARED = 100
 """How many unknown keys are compared with a missing key; a hostile file has a hundred thousand."""
-
-
-class Finding(NamedTuple):
-    """A diagnostic and the path of the node that it is about, which a YamlFault replaces.
-
-    `also` are the paths of further nodes with the same fault. `wrong_kind` identifies the schema of a scalar of the
-    wrong kind, else it is 0.
-    """
-
-    diagnostic: Diagnostic
-    path: Path
-    also: tuple[Path, ...] = ()
-    wrong_kind: int = 0
 
 
 def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
@@ -225,7 +179,7 @@ def _explain(error: ValidationError, tree: YamlMap) -> Iterator[Finding]:
             if inner.schema_path[0] == branch:
                 yield from _explain(inner, tree)
     elif isinstance(node, YamlScalar) and _lacks_space(node, mismatch.schema):
-        yield Finding(SPACE_AFTER_COLON.at(node.span, text=node.text), path)
+        yield Finding(space_after_colon(node.span, node.text), path)
     elif isinstance(node, YamlScalar) and (facts := xacro_facts(node.text)):
         for one in facts:
             yield Finding(XACRO_EXPRESSION.at(node.span, text=one["text"], ours=one["ours"]), path)
@@ -247,8 +201,13 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        if new := renamed_key(str(schema["title"]), first.name):
+            fault = fault.replacing(first.name, new, is_safe=True)
+        if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):
+            fault = replace(fault, fixes=())  # the key would be written twice
         if space_like := find_like_space(first):
             fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
+            fault = fault.with_fix(replace_like_spaces(space_like.file))
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 
@@ -267,8 +226,16 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
         )
         if node.get(name) is None and not is_reported:
-            code = codes.MISSING_VERSION if name == "linkforge" else codes.MISSING_NAME
-            yield Finding(code.at(first), (*path, name))
+            fault = _missing_version(first) if name == "linkforge" else codes.MISSING_NAME.at(first)
+            yield Finding(fault, (*path, name))
+
+
+def _missing_version(first: Span) -> Diagnostic:
+    """Return the error for a file without its version, at its first key."""
+    fault, start = codes.MISSING_VERSION.at(first), Span(first.file, *first.start, *first.start)
+    newline = "\r\n" if "\r\n" in first.file.text else "\n"
+    fix = Fix("write 'linkforge: 1'", (Edit(start, f"linkforge: 1{newline}"),), is_safe=True)
+    return fault.with_fix(fix) if first.column == 1 else fault
 
 
 def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -281,15 +248,19 @@ def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words = words_of(schema)
         hint = word_hint(mismatch, words)
-        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Finding(codes.UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint.ending}
+        fault = codes.UNKNOWN_WORD.at(node.span, near=() if hint.ending else words, notes=(), **facts)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
-    actual = f"{found(node)}{value_hint(mismatch)}"
+    hint = value_hint(mismatch)
+    actual = f"{found(node)}{hint.ending}"
     fault = codes.WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
-    yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
+    yield Finding(
+        fault.with_fix(hint.fix(node.span)), path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0
+    )
 
 
 def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -301,9 +272,10 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
-        actual = f"{len(node)}{value_hint(mismatch)}"
+        hint = value_hint(mismatch)
+        actual = f"{len(node)}{hint.ending}"
         fault = codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual)
-        yield Finding(fault, path)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:

@@ -12,9 +12,9 @@ from linkforge_compile.source.span import (
     Span,
     Trace,
     TracedSpan,
-    place_of_byte,
     span_of,
 )
+from linkforge_compile.source.text_place import place_of_byte
 
 __all__ = [
     "Change",

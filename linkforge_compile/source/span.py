@@ -57,6 +57,10 @@ class SourceFile:
             known = self._spans[begin, end] = Span(self, *self._place(begin), *self._place(end))
         return known
 
+    def index_of(self, line: int, column: int) -> int:
+        """Return the index into `counted` of a place."""
+        return min(self._line_starts[line - 1] + column - 1, len(self.counted))
+
     @cached_property
     def _spans(self) -> dict[tuple[int, int], Span]:
         """The spans by their indexes: each copy of a repeated part asks for the same ones."""
@@ -263,14 +267,6 @@ class ModuleUse(Span):
 def span_of(place: Span | SourceFile, begin: int, end: int) -> Span:
     """Return the place itself if it is a span, else the span between two indexes of the file."""
     return place if isinstance(place, Span) else place.between(begin, end)
-
-
-def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
-    """Return the place of the byte that a decoder refused, in a file of that name with the text that can be read."""
-    before, text = (data.decode(error.encoding, "replace") for data in (error.object[: error.start], error.object))
-    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    line, column = len(lines), len(lines[-1]) + 1
-    return Span(SourceFile(name, text), line, column, line, column + 1)
 
 
 class Key(str):

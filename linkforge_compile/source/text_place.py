@@ -1,4 +1,4 @@
-"""Places of parts of a scalar's text in the file."""
+"""Places of parts of a scalar's text in the file, and of a byte that is no text."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from linkforge_compile.source.span import Span
+from linkforge_compile.source.span import SourceFile, Span
 
 _LINE = re.compile(r"^.*$", re.MULTILINE)
 
@@ -106,3 +106,11 @@ class _Block:
 def _blanks(line: str) -> int:
     """Return the number of blanks that a line begins with."""
     return len(line) - len(line.lstrip())
+
+
+def place_of_byte(error: UnicodeDecodeError, name: str) -> Span:
+    """Return the place of the byte that a decoder refused, in a file of that name with the text that can be read."""
+    before, text = (data.decode(error.encoding, "replace") for data in (error.object[: error.start], error.object))
+    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    line, column = len(lines), len(lines[-1]) + 1
+    return Span(SourceFile(name, text), line, column, line, column + 1)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.syntax.fixes import space_after_colon
 from linkforge_compile.syntax.nodes import (
     YamlEntry,
     YamlFault,
@@ -48,7 +49,7 @@ def _make_entry(key: YamlNode, value: YamlNode, sink: Diagnostics, *, flow: bool
         return None
     is_bare = value.span.start == value.span.end == key.span.end
     if is_bare and STUCK.fullmatch(key.span.text or ""):
-        sink.report(codes.SPACE_AFTER_COLON.at(key.span, text=key.text))
+        sink.report(space_after_colon(key.span, key.text))
         name = key.text.partition(":")[0]
         return YamlEntry(YamlScalar(name, name, key.span), YamlFault(key.span))
     return YamlEntry(key, value)

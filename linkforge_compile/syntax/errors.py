@@ -14,6 +14,14 @@ from linkforge_compile.diagnostics.codes import syntax as codes
 from linkforge_compile.diagnostics.codes.expressions import UNCLOSED_EXPRESSION
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import LIKE_SPACES, code_point
+from linkforge_compile.syntax.fixes import (
+    closing_index,
+    indent_with_spaces,
+    put_in_quotes,
+    replace_like_spaces,
+    space_after_colon,
+    space_after_dash,
+)
 from linkforge_compile.syntax.nodes import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
 from linkforge_compile.syntax.parser import Marks
 
@@ -27,8 +35,6 @@ _FIRST_WORD = re.compile(r"([A-Za-z]\w*) +\S")
 _ITEM_STUCK_TO_DASH = re.compile(r"\s*(-[^\s-]\S*)")
 _KEY_STUCK_TO_DASH = re.compile(r"\s*(-(?:<<|[^\W\d])[^\s:]*:)(?!\S)")
 _TWO_KEYS = re.compile(r"([\w.-]+):\s+(\w+)\Z")
-_IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
-_LONGEST_EXPRESSION = 2_000
 _ESCAPE_OF_NUMBER = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})")
 _MERGE_CONFLICT = re.compile(r"^(?:<{7} .*|={7}$|>{7} .*)", re.MULTILINE)
 _LINE_OF_ENTRY = re.compile(r"\s*(?:-[ \t]+)?[\w$().-]+:(?!\S)")
@@ -39,22 +45,10 @@ def explain_cut_expression(event: ScalarEvent, marks: Marks) -> Diagnostic:
     assert event.start_mark is not None, "the parser marks every event"
     assert event.end_mark is not None, "the parser marks every event"
     opening = marks.text.rfind("$(", event.start_mark.index, event.end_mark.index)
-    if _is_closed(marks.text, opening + len("$(")):
-        return codes.UNQUOTED_EXPRESSION.at(marks.scalar(event))
+    if closing := closing_index(marks.text, opening + len("$(")):
+        fix = put_in_quotes(marks.file, marks.scalar_ends(event)[0], closing)
+        return codes.UNQUOTED_EXPRESSION.at(marks.scalar(event)).with_fix(fix)
     return UNCLOSED_EXPRESSION.at(marks.part(opening, len("$(")))
-
-
-def _is_closed(text: str, start: int) -> bool:
-    """Whether the parenthesis before `start` is closed, before anything that no expression contains."""
-    closing = [")"]
-    for token in _IN_EXPRESSION.finditer(text, start, start + _LONGEST_EXPRESSION):
-        if token[0] in ("(", "["):
-            closing.append(")" if token[0] == "(" else "]")
-        elif token[0][0] not in "'\"" and token[0] != closing.pop():
-            return False
-        if not closing:
-            return True
-    return False
 
 
 @dataclass(frozen=True)
@@ -92,9 +86,9 @@ class _Failure:
 
     def missing_space(self, line: int, stuck_to_dash: re.Pattern[str]) -> Diagnostic | None:
         """Return the error for a line without the space after its dash or its colon, None for other lines."""
-        for pattern, code in ((stuck_to_dash, codes.SPACE_AFTER_DASH), (_KEY_STUCK_TO_VALUE, codes.SPACE_AFTER_COLON)):
+        for pattern, fault in ((stuck_to_dash, space_after_dash), (_KEY_STUCK_TO_VALUE, space_after_colon)):
             if stuck := self.match_line(pattern, line):
-                return code.at(stuck, text=stuck.text)
+                return fault(stuck, stuck.text or "")
         return None
 
     def quoted_text_before(self) -> Span | None:
@@ -132,7 +126,8 @@ def _explain(
         return _explain_after_quote(failure, quoted)
     for line in (failure.line_above(), failure.here.line):
         if (like_space := failure.match_line(LIKE_SPACES, line)) and (character := like_space.text):
-            return codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
+            fault = codes.TAB_INDENTATION.at(like_space, found=f"{code_point(character)}, which looks like one")
+            return fault.with_fix(replace_like_spaces(marks.file))
     for pattern, explain in _EXPLANATIONS:
         if re.search(pattern, failure.problem):
             return explain(failure)
@@ -175,7 +170,8 @@ def _strip_comment(line: str) -> str:
 
 
 def _explain_tab(failure: _Failure) -> Diagnostic:
-    return codes.TAB_INDENTATION.at(failure.here, found="a tab")
+    fault = codes.TAB_INDENTATION.at(failure.here, found="a tab")
+    return fault if failure.before.strip() else fault.with_fix(indent_with_spaces(failure.marks.file))
 
 
 def _explain_reserved_character(failure: _Failure) -> Diagnostic:
@@ -239,7 +235,7 @@ def _explain_line(failure: _Failure) -> Diagnostic:
             return codes.COMMA_AFTER_VALUE.at(here)
         return codes.TEXT_AFTER_VALUE.at(here)
     if stuck := failure.match_line(_ITEM_STUCK_TO_DASH, here.line):
-        return codes.SPACE_AFTER_DASH.at(stuck, text=stuck.text)
+        return space_after_dash(stuck, stuck.text or "")
     if fault := _find_fault_above(failure):
         return fault
     in_map = "mapping" in failure.construct

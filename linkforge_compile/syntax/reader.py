@@ -24,6 +24,7 @@ from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
 from linkforge_compile.syntax.entries import STUCK, kind_of, make_entries
+from linkforge_compile.syntax.fixes import indent_line, space_after_colon
 from linkforge_compile.syntax.flow_lines import find_outdented_line
 from linkforge_compile.syntax.nodes import (
     MAX_DEPTH,
@@ -61,7 +62,7 @@ def read(file: SourceFile, sink: Diagnostics, budget: Budget | None = None) -> Y
     if isinstance(root, YamlScalar) and root.value is None:
         sink.report(codes.EMPTY_DOCUMENT.at(root.span.file.whole))
     elif isinstance(root, YamlScalar) and STUCK.fullmatch(root.text):
-        sink.report(codes.SPACE_AFTER_COLON.at(root.span, text=root.text))
+        sink.report(space_after_colon(root.span, root.text))
     elif not isinstance(root, YamlFault):
         sink.report(codes.TOP_LEVEL_NOT_MAP.at(root.span, found=kind_of(root)))
     return None
@@ -318,4 +319,6 @@ class _Reader:
         """Warn about a line of the outermost flow list or map that other parsers do not take for a part of it."""
         if line := find_outdented_line(self._marks.text, begin, end, self._indent):
             spaces = "1 space" if self._indent == 0 else f"{self._indent + 1} spaces"
-            self._sink.report(codes.OUTDENTED_LINE.at(self._file.between(*line), spaces=spaces))
+            place = self._file.between(*line)
+            fix = indent_line(place, self._indent + 1)
+            self._sink.report(codes.OUTDENTED_LINE.at(place, spaces=spaces).with_fix(fix))

@@ -43,6 +43,12 @@ def test_an_abbreviated_option_is_refused(tmp_path: Path, words: tuple[str, ...]
     assert f"unrecognized arguments: {words[1]}" in run.stderr
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_of_every_command_has_an_example_of_it(command: str, tmp_path: Path):
+    _, _, after_usage = linkforge(command, "--help", cwd=tmp_path).stdout.partition("show this help message and exit")
+    assert f"  linkforge {command}" in after_usage
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only where the names of files are bytes")
 def test_names_of_files_are_the_same_in_the_locale_c(tmp_path: Path):
     (tmp_path / "é.robot.yaml").write_text(SPEC)

@@ -199,6 +199,19 @@ def test_each_format_is_installed_in_its_folder(pendulum: Path, installed: list[
     assert dict(found) == misplaced
 
 
+@pytest.mark.parametrize(
+    ("folder", "hint"),
+    [("urfd=share", "; did you mean 'urdf'?"), ("a=b", "; there are urdf, srdf"), ("=b", "; there are urdf, srdf")],
+)
+def test_an_unknown_format_of_installed_in_is_refused(pendulum: Path, folder: str, hint: str):
+    words = ("compile", "swing.robot.yaml", "-o", "build/", "--installed-in")
+    run = linkforge(*words, folder, cwd=pendulum)
+    assert run.returncode == 2
+    assert f"--installed-in: there is no format '{folder.partition('=')[0]}'{hint}" in run.stderr
+    assert f"write './{folder}'" in run.stderr
+    assert linkforge(*words, f"./{folder}", cwd=pendulum).returncode == 0
+
+
 def test_meshes_of_a_spec_on_standard_input_are_looked_for_from_the_output_folder(pendulum: Path):
     """LF7006."""
     (pendulum / "rod.stl").write_bytes(bytes(80) + (1).to_bytes(4, "little") + bytes(50))

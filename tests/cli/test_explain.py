@@ -364,6 +364,66 @@ def test_a_parameter_overridden_in_with_is_shown_with_what_it_replaced(nested: P
     ]
 
 
+CONTROLLED = """\
+linkforge: 1
+name: arm
+links: {base: , upper: }
+joints:
+  elbow: {type: continuous, parent: base, child: upper, axis: z, limits: {effort: 1, velocity: 1}}
+ros2_control:
+  arm:
+    hardware_plugin: mock_components/GenericSystem
+    joints: {elbow: {command_interfaces: [velocity, position], state_interfaces: [position]}}
+semantic:
+  groups:
+    arm: {joints: [elbow]}
+"""
+
+
+TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+MOVE = f"controllers: {{move: {{type: {TRAJECTORY}, group: arm}}}}\n"
+GRIPPER = "effort_controllers/GripperActionController"
+GRIP = f"controllers: {{grip: {{type: {GRIPPER}, parameters: {{joint: elbow}}}}}}\n"
+OF_GROUP = "the joints of planning group 'arm' that have a command interface in `ros2_control`"
+FIRST = "the first of 'position', 'velocity' and 'effort' that all of its joints have in `ros2_control`"
+
+
+@pytest.mark.parametrize(
+    ("controllers", "value", "why", "place"),
+    [
+        ("", "arm_controller/joints: [elbow]", OF_GROUP, "12:5"),
+        ("", "arm_controller/joints/0: elbow", OF_GROUP, "12:5"),
+        ("", f"arm_controller/type: {TRAJECTORY}", "a default, because the spec has no `controllers`", "12:5"),
+        (MOVE, "move/joints: [elbow]", OF_GROUP, "12:5"),
+        (MOVE, "move/command_interfaces: [position]", FIRST, "9:42"),
+        (GRIP, "grip/joints: [elbow]", "its parameter 'joint'", "13:92"),
+    ],
+)
+def test_what_a_controller_derives_is_shown_with_what_it_follows_from(
+    tmp_path: Path, controllers: str, value: str, why: str, place: str
+):
+    (tmp_path / "arm.robot.yaml").write_text(CONTROLLED + controllers)
+    path = f"controllers/{value.partition(':')[0]}"
+    first, second, third, *_ = linkforge("explain", "arm.robot.yaml", path, cwd=tmp_path).stdout.splitlines()
+    assert first == f"controllers/{value}"
+    assert second == f"not written itself: {why}"
+    assert third.endswith(f" is written at arm.robot.yaml:{place}")
+
+
+def test_a_controller_that_is_none_has_a_hint_to_a_default_one(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(CONTROLLED)
+    run = linkforge("explain", "arm.robot.yaml", "controllers/arm_controler", cwd=tmp_path)
+    assert "did you mean 'arm_controller'?" in run.stderr
+
+
+def test_a_written_field_of_a_controller_is_shown_at_its_place(tmp_path: Path):
+    own = "controllers: {move: {type: a/B, joints: [elbow], parameters: {gain: 2}}}\n"
+    (tmp_path / "arm.robot.yaml").write_text(CONTROLLED + own)
+    for path in ("joints/0", "parameters/gain", "type"):
+        run = linkforge("explain", "arm.robot.yaml", f"controllers/move/{path}", cwd=tmp_path)
+        assert run.stdout.splitlines()[1].startswith("written at arm.robot.yaml:13:")
+
+
 def test_a_map_is_summarized_without_unwritten_defaults(cell: Path):
     run = linkforge("explain", "cell.robot.yaml", "joints/left_elbow", cwd=cell)
     assert "limits: {effort: 20, velocity: 1}" in run.stdout

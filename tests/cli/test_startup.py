@@ -10,7 +10,7 @@ import pytest
 from linkforge_compile import __version__
 from tests.conftest import ROOT
 
-HEAVY = {"jinja2", "jsonschema", "jsonschema_rs", "networkx", "lxml", "yaml", "difflib", "numpy", "re2"}
+HEAVY = {"jinja2", "jsonschema", "jsonschema_rs", "networkx", "lxml", "yaml", "difflib", "numpy", "re2", "argcomplete"}
 
 
 PLAIN = """

@@ -146,7 +146,7 @@ def test_contradictory_outputs_are_reported(
 
 
 def test_the_hooks_of_pre_commit_are_commands_of_ours(arm: Path):
-    check_hook, uptodate_hook, _ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
+    check_hook, uptodate_hook, *_ = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))
     assert (check_hook["id"], uptodate_hook["id"]) == ("linkforge-check", "linkforge-uptodate")
     program, *words = check_hook["entry"].split()
     assert program == "linkforge"

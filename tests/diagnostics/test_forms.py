@@ -33,6 +33,7 @@ EVERY = (
     UNKNOWN.at(CHILD, name="hnad", notes=[Note("used here", Span(STDIN, 1, 1, 1, 2)), Note("with variant 'sim' only")]),
     UNKNOWN.at(None, name="tool"),
 )
+FIXABLE = UNKNOWN.at(CHILD, name="hnad", near=["hand"])
 
 
 def test_json_is_complete_and_fits_its_schema():
@@ -62,7 +63,18 @@ def test_json_is_complete_and_fits_its_schema():
             },
         ],
         "help": "run 'linkforge explain LF4102'",
+        "fixes": [],
     }
+
+
+def test_json_has_the_fixes():
+    whole = json.loads(render_json([FIXABLE]))
+    schema = json.loads((ROOT / "docs" / "diagnostics.schema.json").read_text("utf-8"))
+    jsonschema.Draft7Validator(schema).validate(whole)
+    place = {"file": "robots/a, b.robot.yaml", "line": 2, "column": 18, "end_line": 2, "end_column": 22}
+    assert whole["diagnostics"][0]["fixes"] == [
+        {"title": "write 'hand'", "is_safe": False, "edits": [{**place, "text": "hand"}]}
+    ]
 
 
 def test_github_annotations_have_no_file_where_there_is_none():
@@ -150,6 +162,15 @@ def test_sarif_relates_the_places_of_notes():
     assert unknown["message"]["text"] == "no link named 'hnad'\nwith variant 'sim' only"
 
 
+def test_sarif_has_the_fixes():
+    (fix,) = sarif_run((FIXABLE,))["results"][0]["fixes"]
+    assert fix["description"] == {"text": "write 'hand'"}
+    (change,) = fix["artifactChanges"]
+    assert unquote(change["artifactLocation"]["uri"]) == "robots/a, b.robot.yaml"
+    region = {"startLine": 2, "startColumn": 18, "endLine": 2, "endColumn": 22}
+    assert change["replacements"] == [{"deletedRegion": region, "insertedContent": {"text": "hand"}}]
+
+
 TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
 URI = {"type": "string", "pattern": r"^[^\s\\\\]+$", "format": "uri-reference"}
 COUNT = {"type": "integer", "minimum": 1}
@@ -178,6 +199,19 @@ RULE = closed(
     help={**TEXT, "properties": {**TEXT["properties"], "markdown": {"type": "string"}}},
     defaultConfiguration=closed(level=LEVEL),
 )
+FIX = closed(
+    ("artifactChanges",),
+    description=TEXT,
+    artifactChanges=some(
+        closed(
+            ("artifactLocation", "replacements"),
+            artifactLocation=PLACE["properties"]["artifactLocation"],
+            replacements=some(
+                closed(("deletedRegion",), deletedRegion=REGION, insertedContent=closed(text={"type": "string"}))
+            ),
+        )
+    ),
+)
 RESULT = closed(
     ("message", "ruleId"),
     ruleId={"type": "string"},
@@ -186,6 +220,7 @@ RESULT = closed(
     message=TEXT,
     locations=some(closed(("physicalLocation",), physicalLocation=PLACE)),
     relatedLocations=some(closed(("physicalLocation",), physicalLocation=PLACE, message=TEXT)),
+    fixes=some(FIX),
 )
 RUN = closed(
     ("tool", "results"),
@@ -206,7 +241,7 @@ SARIF = closed(("version", "runs"), version={"const": "2.1.0"}, runs=some(RUN), 
 
 def test_sarif_is_as_the_standard_has_it():
     Draft7Validator.check_schema(SARIF)
-    log = sarif_log(EVERY)
+    log = sarif_log((*EVERY, FIXABLE))
     assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
 
 

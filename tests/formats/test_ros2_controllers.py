@@ -81,6 +81,8 @@ ros2_control:
 """
 ARM_GROUP = "semantic: {groups: {arm: {chain: {base_link: base, tip_link: lower}}, fixed: {links: [base]}}}\n"
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+POSITIONS = "position_controllers/JointGroupPositionController"
+FORWARD = "forward_command_controller/ForwardCommandController"
 
 
 def robot_of(text: str):
@@ -421,10 +423,68 @@ def test_a_list_that_ros_refuses_is_one_error():
     assert [one[:6] for one in found] == ["LF7623"]
 
 
+@pytest.mark.parametrize(
+    ("in_parameters", "in_fields"),
+    [
+        (f"type: {POSITIONS}, parameters: {{joints: [elbow, left]}}", f"type: {POSITIONS}, joints: [elbow, left]"),
+        (
+            f"type: {FORWARD}, group: arm, parameters: {{interface_name: effort}}",
+            f"type: {FORWARD}, group: arm, command_interfaces: [effort]",
+        ),
+        (
+            "type: effort_controllers/GripperActionController, parameters: {joint: elbow, max_effort: 1}",
+            "type: effort_controllers/GripperActionController, joints: [elbow], parameters: {max_effort: 1}",
+        ),
+        (
+            f"type: {TRAJECTORY}, group: arm, parameters: {{state_interfaces: [position, effort]}}",
+            f"type: {TRAJECTORY}, group: arm, state_interfaces: [position, effort]",
+        ),
+    ],
+)
+def test_a_parameter_of_a_field_is_checked_as_that_field(in_parameters: str, in_fields: str):
+    start = f"{ROBOT}{ARM_GROUP}controllers: {{o: {{type: a/B}}, c: "
+    found = reported(f"{start}{{{in_parameters}}}}}\n")
+    assert found == reported(f"{start}{{{in_fields}}}}}\n")
+    assert found
+    assert controller("c", f"{start}{{{in_parameters}}}}}\n") == controller("c", f"{start}{{{in_fields}}}}}\n")
+
+
 def test_joints_in_parameters_are_commanded():
-    type_ = "position_controllers/JointGroupPositionController"
-    own = f"{{type: {type_}, parameters: {{joints: [shoulder, elbow, left, right]}}}}"
-    assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == []
+    own = f"{{type: {POSITIONS}, parameters: {{joints: [shoulder, elbow]}}}}"
+    assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == [
+        "LF7607 no controller commands joint 'left'; the same for 'right'"
+    ]
+
+
+def test_names_in_parameters_of_fields_are_checked_at_their_place():
+    imu = "type: imu_sensor_broadcaster/IMUSensorBroadcaster, parameters: {sensor_name: imv, frame_id: uper}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers:\n  i: {{{imu}}}\n"
+    text += f"  j: {{type: {POSITIONS}, parameters: {{joints: [shoulder, elbo]}}}}\n"
+    compilation = compile_text(text, formats=("ros2_controllers",))
+    assert [(one.code.id, one.span.text) for one in compilation.diagnostics if one.span] == [
+        ("LF4110", "imv"),
+        ("LF4102", "uper"),
+        ("LF4103", "elbo"),
+    ]
+
+
+@pytest.mark.parametrize(("name", "codes"), [("elbow", ["LF5704"]), ("$(joint('elbow'))", []), ("elbo", ["LF4103"])])
+def test_a_name_in_parameters_of_a_field_is_one_fault_under_a_prefix(tmp_path: Path, name: str, codes: list[str]):
+    own = f"controllers: {{c: {{type: {POSITIONS}, parameters: {{joints: [{name}]}}}}}}\n"
+    (tmp_path / "arm.robot.yaml").write_text(f"linkforge: 1\nname: arm\n{ROBOT}{own}")
+    module = "{use: arm.robot.yaml, parent: table, prefix: l_}"
+    both = tmp_path / "both.robot.yaml"
+    both.write_text(f"linkforge: 1\nname: both\nlinks: {{table: }}\nmodules: {{arm: {module}}}\n")
+    diagnostics = compile_file(both, formats=("ros2_controllers",)).diagnostics
+    assert [one.code.id for one in diagnostics if one.code.id != "LF7607"] == codes
+
+
+def test_a_misspelled_class_and_a_wrong_group_are_reported_in_one_run():
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}"
+    other = f"{{type: {POSITIONS}, joints: [$(joint('elbow'))]}}"
+    text += f"controllers: {{c: {{type: {TRAJECTORY}s, group: amr}}, d: {other}}}\n"
+    found = compile_text(text, formats=("ros2_controllers",)).diagnostics
+    assert sorted(one.code.id for one in found) == ["LF3091", "LF4104", "LF7613"]
 
 
 def test_a_broadcaster_commands_no_joint():
@@ -503,6 +563,26 @@ def test_joints_that_nothing_moves_without_gains_are_reported():
     ]
     assert reported(f"{start}{{gains.left.p: 1.0, gains: {{right: {{ff_velocity_scale: 1}}}}}}}}}}\n") == []
     assert reported(f"{start}{{open_loop_control: true}}}}}}\n") == []
+
+
+@pytest.mark.parametrize(
+    ("controller", "codes"),
+    [
+        (f"type: {TRAJECTORY}, parameters: {{joints: shoulder}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, 1]}}", ["LF7623"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder, elbo]}}", ["LF4103"]),
+        (f"type: {TRAJECTORY}, parameters: {{joints: [shoulder], command_interfaces: position}}", ["LF7612"]),
+        (f"type: {TRAJECTORY}, joints: [$(joint('elbow'))]", ["LF3091"]),
+        (f"type: {TRAJECTORY}, group: arm, left_wheels: [left]", ["LF7605"]),
+        (f"type: {FORWARD}, group: arm, command_interfaces: [position, effort]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, left]", ["LF7622"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbo]", ["LF4103"]),
+        ("type: position_controllers/GripperActionController, joints: [elbow, elbow]", ["LF4160"]),
+    ],
+)
+def test_a_fault_of_a_controller_is_reported_once(controller: str, codes: list[str]):
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}controllers: {{o: {{type: a/B}}, c: {{{controller}}}}}\n"
+    assert [one.code.id for one in compile_text(text, formats=("ros2_controllers",)).diagnostics] == codes
 
 
 @pytest.mark.parametrize(
@@ -606,6 +686,14 @@ def test_names_in_parameters_of_the_manager_take_the_prefix(tmp_path: Path):
     }
 
 
+def test_names_of_faulty_hardware_and_controllers_are_one_fault_each():
+    faulty = ROBOT.replace("  all:\n", "  grip: {joints: {}}\n  all:\n")
+    start = "hardware_components_initial_state: {inactive: [grip, all]}"
+    manager = f"controller_manager: {{parameters: {{{start}, move: {{fallback_controllers: [hold]}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{faulty}controllers: {{move: {{type: a/B}}, hold: {{typ: a/B}}, {manager}}}\n"
+    assert [one.code.id for one in compile_text(text).diagnostics if one.code.id != "LF6112"] == ["LF5005", "LF2101"]
+
+
 def test_the_file_that_uses_modules_states_the_initial_state_of_their_hardware(tmp_path: Path):
     states = "{unconfigured: [l_all], shutdown_on_initial_state_failure: true}"
     parameters = f"{{hardware_components_initial_state: {states}}}"
@@ -623,6 +711,17 @@ def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
     assert found.code.id == "LF4111"
     assert "'hardware_components_initial_state.shutdown_on_initial_state_failure'" in found.message
     assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
+
+
+def test_derived_values_lead_to_what_they_follow_from():
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}"
+    document = ROS2_CONTROLLERS.render(compile_text(text).result(), Rendering(has_map=True))[0]
+    assert document.map is not None
+    places = {line.strip(): document.map.at(at) for at, line in enumerate(document.text.splitlines(), start=1)}
+    found = {line: place.span.text for line, place in places.items() if place}
+    assert found["joints: [shoulder, elbow]"] == "arm"
+    assert found["command_interfaces: [position]"] == "[velocity, position]"
+    assert found["state_interfaces: [position, velocity]"] == "[velocity, position, effort]"
 
 
 def test_parameters_of_merged_managers_lead_to_the_files_of_their_modules(tmp_path: Path):

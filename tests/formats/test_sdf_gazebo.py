@@ -232,14 +232,74 @@ joints: {weld: {type: fixed, parent: world, child: base, gazebo: {springStiffnes
     ]
 
 
-def test_a_fixed_joint_with_a_raw_sensor_is_kept(tmp_path: Path):
+WRENCH = """
+links: {base: {inertial: *unit}, flange: , plate: , tool: {inertial: *unit}}
+joints:
+  wrist: {type: fixed, parent: base, child: flange, origin: {xyz: [0, 0, 1], rpy: [0, 0, 90 deg]}}
+  screw: {type: fixed, parent: flange, child: plate, origin: [0, 1, 0]}
+  bolt: {type: fixed, parent: plate, child: tool, origin: [1, 0, 0]}
+"""
+TYPED = "sensors: {wrench: {type: force_torque, link: flange, origin: [0, 0, 2]}}"
+RAW = """
+gazebo:
+  reference: wrist
+  extra: "<sensor name='wrench' type='force_torque'><pose>0 0 2 0 0 0</pose>FRAME</sensor>"
+"""
+
+
+@pytest.mark.parametrize("sensor", [TYPED, RAW.replace("FRAME", "")])
+def test_a_force_below_a_link_without_mass_is_that_of_the_body_fixed_to_it(tmp_path: Path, sensor: str):
+    assert reported(WRENCH + sensor) == []
+    found = read(WRENCH + sensor, tmp_path)
+    assert list(found.links) == ["base", "tool"]
+    joint = found.joints["wrist"]
+    assert (joint["type"], joint["parent"], joint["child"]) == ("fixed", "base", "tool")
+    assert [one["pose"][:3] for one in joint["sensors"]] == [pytest.approx([0, 0, 3])]
+    assert found.frames["flange"]["pose"] == pytest.approx(joint["pose"])
+    assert found.links["tool"]["pose"][:3] == pytest.approx([-1, 1, 1])
+
+
+@pytest.mark.parametrize(
+    ("sensor", "is_carried"),
+    [
+        (TYPED, False),
+        (TYPED.replace("origin:", "force_torque: {frame: sensor}, origin:"), True),
+        (RAW.replace("FRAME", ""), False),
+        (RAW.replace("FRAME", "<force_torque><frame>parent</frame></force_torque>"), True),
+    ],
+)
+def test_a_force_in_the_axes_of_a_link_without_mass_needs_that_link(tmp_path: Path, sensor: str, is_carried: bool):
+    """Gazebo turns it into those of the child of the joint, which the tool below would be."""
+    text = WRENCH.replace("origin: [1, 0, 0]", "origin: {xyz: [1, 0, 0], rpy: [0, 90 deg, 0]}") + sensor
+    assert [message[:6] for message in reported(text)] == ([] if is_carried else ["LF7502"])
+    assert read(text, tmp_path).joints["wrist"]["child"] == ("tool" if is_carried else "flange")
+
+
+def test_a_force_in_a_joint_with_nothing_below_needs_a_body(tmp_path: Path):
     text = """
 links: {base: {inertial: *unit}, hand: }
 joints:
   wrist: {type: fixed, parent: base, child: hand, gazebo: {extra: "<sensor name='wrench' type='force_torque'/>"}}
 """
+    assert [message[:6] for message in reported(text)] == ["LF7502"]
     joint = read(text, tmp_path).joints["wrist"]
     assert (joint["type"], [sensor["name"] for sensor in joint["sensors"]]) == ("fixed", ["wrench"])
+
+
+def test_a_raw_sensor_in_a_joint_that_is_a_frame_is_on_its_link(tmp_path: Path):
+    """Gazebo Sim has no sensors but those of forces in joints."""
+    text = """
+links: {base: {inertial: *unit}, mast: }
+joints:
+  up: {type: fixed, parent: base, child: mast, origin: {xyz: [0, 0, 1], rpy: [0, 0, 90 deg]}}
+gazebo:
+  - {reference: up, extra: "<sensor name='imu' type='imu'><pose>1 0 0 0 0 0</pose></sensor>"}
+"""
+    assert reported(text) == []
+    found = read(text, tmp_path)
+    assert list(found.links) == ["base"]
+    (sensor,) = found.links["base"]["sensors"]
+    assert sensor["pose"][:3] == pytest.approx([0, 1, 1])
 
 
 RAW_SENSORS = """

@@ -172,14 +172,25 @@ ros2_control: {{left: {{hardware_plugin: PLUGIN, joints: {{left_hand_bend: {{com
 """
 
 
+def test_joints_that_gz_ros2_control_moves_are_in_the_outermost_model(tmp_path: Path):
+    """With all that mimics them; the plugin finds the joints that are children of its own model alone."""
+    robot = compiled_with_parts(CONTROLLED.replace("PLUGIN", "gz_ros2_control/GazeboSimSystem"), tmp_path)
+    joints = require_same_nested(robot, tmp_path).joints
+    assert [name for name, joint in joints.items() if joint["type"] == "revolute"] == [
+        "left_hand_bend",
+        "left_hand_grip",
+    ]
+    assert joints["left_hand_bend"]["child"] == "left::hand::left_hand_finger"
+
+
 @pytest.mark.parametrize(
     ("text", "messages"),
     [
         (
             CONTROLLED.replace("PLUGIN", "gz_ros2_control/GazeboSimSystem"),
             [
-                "LF7512 gz_ros2_control finds no joints in nested models, so it does not move 'left_hand_bend'; "
-                "leave out `--nested`"
+                "LF7512 gz_ros2_control finds no joints in nested models, so 'left_hand_bend' is in that of the robot, "
+                "and not of its module"
             ],
         ),
         (CONTROLLED.replace("PLUGIN", "mock_components/GenericSystem"), []),

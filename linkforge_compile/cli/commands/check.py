@@ -46,10 +46,12 @@ examples:
   linkforge check --for mjcf --strict arm.robot.yaml    what MJCF cannot hold of it, as errors
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
   linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 reports only those
+  linkforge check --fix                             write what is certain, such as '$(reach)' for '${reach}'
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge check [options] [SPEC ...] [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words",
@@ -60,6 +62,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
+    parser.add_argument(
+        "--fix", action="store_true", help="write the safe corrections into the files, then report what remains"
+    )
     add_spec_options(parser, variants_help="once more for another one, in the same report")
     add_format_options(parser)
     add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
@@ -68,9 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
     from linkforge_compile.diagnostics.render_text import summary
-    from linkforge_compile.diagnostics.reports import without_repeats
 
     words, assignments = split_assignments(arguments.words)
     refuse_formats_as_specs(words, "--for")
@@ -83,12 +86,20 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("--all-variants takes files, not standard input")
     if len(arguments.variants) > 1 and "-" in found.specs:
         raise UsageError("several --variant take files, not standard input, which can be read once")
-    checks = {spec: _merge_runs(_check(spec, assignments, arguments)) for spec in found.specs}
-    # For a nameless file that is used as a module, the report of its user includes the missing name.
-    parts = find_parts({spec: check.report for spec, check in checks.items()}, (MISSING_NAME,))
-    wholes = [check for spec, check in checks.items() if spec not in parts]
-    diagnostics = (*found.faults, *(one for check in wholes for one in check.report.diagnostics))
-    chosen = select(without_repeats(diagnostics), arguments)
+    if arguments.fix and "-" in found.specs:
+        raise UsageError("--fix takes files, not standard input")
+
+    def check(buffers: Mapping[str, str]) -> _Report:
+        checks = {spec: _merge_runs(_check(spec, assignments, arguments, buffers)) for spec in found.specs}
+        return _report_of(checks, found.faults, arguments)
+
+    if arguments.fix:
+        from linkforge_compile.cli.fixing import fix_files
+
+        report = fix_files(check, found.specs, arguments)
+    else:
+        report = check({})
+    wholes, chosen = report.wholes, report.diagnostics
     _print(chosen, arguments)
     if not arguments.quiet:
         variants = _variants_summary(wholes) if arguments.all_variants else ""
@@ -96,13 +107,28 @@ def run(arguments: argparse.Namespace) -> int:
     return FAULTY_SPEC if errors_of(chosen) else OK
 
 
-def _check(spec: str, assignments: list[str], arguments: argparse.Namespace) -> _Compilations:
+def _report_of(checks: Mapping[str, _Check], faults: Iterable[Diagnostic], arguments: argparse.Namespace) -> _Report:
+    """Return the report of all specs; `faults` are those of the search for them."""
+    from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
+    from linkforge_compile.diagnostics.reports import without_repeats
+
+    # For a nameless file that is used as a module, the report of its user includes the missing name.
+    parts = find_parts({spec: check.report for spec, check in checks.items()}, (MISSING_NAME,))
+    wholes = [check for spec, check in checks.items() if spec not in parts]
+    diagnostics = (*faults, *(one for check in wholes for one in check.report.diagnostics))
+    return _Report(tuple(wholes), select(without_repeats(diagnostics), arguments))
+
+
+def _check(
+    spec: str, assignments: list[str], arguments: argparse.Namespace, buffers: Mapping[str, str]
+) -> _Compilations:
     """Return the results by variant, where None means the defaults."""
     if not arguments.all_variants:
-        return {variant: check_spec(spec, assignments, arguments, variant) for variant in arguments.variants or [None]}
+        variants = arguments.variants or [None]
+        return {variant: check_spec(spec, assignments, arguments, variant, buffers) for variant in variants}
     from linkforge_compile.pipeline import check_each_variant
 
-    return check_each_variant(Path(spec), check_settings_of(assignments, arguments))
+    return check_each_variant(Path(spec), check_settings_of(assignments, arguments)._replace(buffers=buffers))
 
 
 def _print(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
@@ -122,6 +148,13 @@ class _Check(NamedTuple):
     report: SpecReport
     variants: int
     unchecked: int
+
+
+class _Report(NamedTuple):
+    """The checks of the specs that are no parts of others, and the diagnostics to show."""
+
+    wholes: tuple[_Check, ...]
+    diagnostics: tuple[Diagnostic, ...]
 
 
 def _merge_runs(compilations: _Compilations) -> _Check:

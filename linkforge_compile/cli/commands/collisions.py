@@ -6,25 +6,28 @@ import argparse
 import json
 import os
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import (
     add_spec_options,
     compile_spec,
+    require_one_spec,
     settings_of,
     split_assignments,
 )
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
-from linkforge_compile.cli.specs import FoundSpecs, SpecReport, find_parts, find_specs_of
+from linkforge_compile.cli.specs import FoundSpecs, SpecReport, count, find_parts, find_specs_of
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.analysis import Settings
     from linkforge_compile.collisions.matrix import Matrix
     from linkforge_compile.collisions.pairs import Names
+    from linkforge_compile.collisions.poses import Collision
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.srdf import GroupState
 
 MAX_SHOWN = 20
 """The most pairs that `--check` lists."""
@@ -47,6 +50,8 @@ examples:
   linkforge collisions arm.robot.yaml --check            in CI: exit code 1 if --write would change anything
   linkforge collisions robots/ --check                   each spec of a folder that has pairs, modules first
   linkforge collisions cell.robot.yaml --all             sample the pairs inside modules as well
+  linkforge collisions arm.robot.yaml --pose arm/home    what collides in state `home` of group `arm`; exit code 1 if
+                                                         a pair does that planners check
 """
 
 
@@ -68,6 +73,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     output.add_argument("--write", action="store_true", help="change the section in the spec instead of printing it")
     output.add_argument("--check", action="store_true", help="write nothing; fail if --write would change anything")
     output.add_argument("--json", action="store_true", help="print JSON, with the pairs that need a check")
+    output.add_argument(
+        "--pose",
+        metavar="GROUP/STATE",
+        dest="poses",
+        action="append",
+        default=[],
+        help="print what collides in a state of a group, without sampling; once more for another one",
+    )
     add_spec_options(parser)
     add_report_options(parser)
 
@@ -80,6 +93,8 @@ def run(arguments: argparse.Namespace) -> int:
     if len(words) > 1 and "-" in words:
         raise UsageError("takes several specs as files, not on standard input")
     _require_libraries()
+    if arguments.poses:
+        return _check_poses(require_one_spec(words), assignments, arguments)
     code = FAULTY_SPEC if report(found.faults, arguments) else OK
     is_one = len(words) == 1 and not found.in_folders and not found.faults
     specs = found.specs if is_one else _in_order(found, assignments, arguments)
@@ -116,6 +131,49 @@ def _in_order(found: FoundSpecs, assignments: list[str], arguments: argparse.Nam
         raise UsageError("no spec below has pairs in `disabled_collisions`; name the specs that need it")
     # A spec is made from the files of its modules, and its own.
     return sorted(set(found.specs) - left_out, key=lambda spec: (len(set(compilations[spec].files)), spec))
+
+
+def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespace) -> int:
+    """Print what collides in the states that the options name; FAULTY_SPEC if a pair does that planners check."""
+    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.collisions.poses import find_collisions
+    from linkforge_compile.diagnostics import Diagnostics
+    from linkforge_compile.diagnostics.grouping import group_alike
+
+    compilation = compile_spec(spec, assignments, arguments)
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+        return FAULTY_SPEC
+    states, sink = _states(compilation.robot, arguments.poses), Diagnostics()
+    found = find_collisions(compilation.robot, states.values(), sink)
+    if report(group_alike(sink.sorted()), arguments):
+        return FAULTY_SPEC
+    lines = (
+        line for pose, collisions in zip(states, found, strict=True) for line in _collision_lines(pose, collisions)
+    )
+    write_to_stdout("".join(f"{line}\n" for line in lines))
+    are_free = all(one.disabled is not None for collisions in found for one in collisions)
+    return OK if are_free else FAULTY_SPEC
+
+
+def _states(robot: Robot, poses: list[str]) -> dict[str, GroupState]:
+    """Return the states of groups that `--pose` names; UsageError for an unknown one."""
+    from linkforge_compile.diagnostics.grouping import join_names
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+
+    known = {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
+    if unknown := next((pose for pose in poses if pose not in known), None):
+        hint = did_you_mean(unknown, known) or (f"; there are {join_names(known)}" if known else "")
+        raise UsageError(f"--pose takes GROUP/STATE; the robot has no state '{unknown}'{hint}")
+    return {pose: known[pose] for pose in poses}
+
+
+def _collision_lines(pose: str, collisions: Sequence[Collision]) -> Iterator[str]:
+    disabled = sum(one.disabled is not None for one in collisions)
+    checked = count(len(collisions) - disabled, "pair")
+    yield f"{pose}: {checked} in collision" + (f", and {disabled} disabled" if disabled else "")
+    for (one, other), depth, reason in collisions:
+        deep = "" if depth is None else f" {depth * 1000:.3g} mm"
+        yield f"  {one} {other}{deep}" + ("" if reason is None else f" (disabled: {reason or 'no reason'})")
 
 
 def _print(results: Mapping[str, Matrix], arguments: argparse.Namespace, *, is_one: bool) -> None:

@@ -10,7 +10,6 @@ from linkforge_compile.cli.build import Build, BuildRequest, compile_request, re
 from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.options import (
     add_format_options,
-    add_spec_and_values,
     add_spec_options,
     packages_of,
     refuse_options_of_other_formats,
@@ -66,15 +65,15 @@ of FOLDER with the name of a format, FOLDER/urdf/, replace linkforge's own. docs
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge compile [options] SPEC ... [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
-    add_build_arguments(parser)
+    add_build_arguments(parser, "specs, NAME.robot.yaml, or folders; - for standard input")
     parser.add_argument(
         "--check", action="store_true", help="write nothing, and fail if a file differs from what the spec compiles to"
     )
 
 
-def add_build_arguments(parser: argparse.ArgumentParser) -> None:
+def add_build_arguments(parser: argparse.ArgumentParser, specs_help: str) -> None:
     """Add the arguments that `compile` and `watch` share."""
-    add_spec_and_values(parser)
+    parser.add_argument("words", metavar="SPEC", nargs="+", help=specs_help)
     add_target_options(parser)
     parser.add_argument(
         "--source-map",

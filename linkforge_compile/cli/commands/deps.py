@@ -33,8 +33,8 @@ FORMATS = ("make", "json")
 
 _EXAMPLES = """\
 It lists the spec, the files that it includes and uses, files of values, xacro files, meshes from which an inertia is
-computed, and the meshes of an MJCF; and linkforge's own templates of the format, and its version. The format is URDF,
-unless -o or --for name other files.
+computed, and the meshes of an MJCF or SDF; and linkforge's own templates of the format, and its version. The format is
+URDF, unless -o or --for name other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.expand.values import NameOrigin, Setting
     from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
+    from linkforge_compile.formats.ros2_controllers.complete import Derived
 
 _EXAMPLES = """\
 PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
@@ -81,12 +82,30 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.export_spec import UnknownPathError, explain
 
+    derived = _complete_controllers(compilation.robot, path)
     try:
         explanation = explain(compilation.robot, path)
     except UnknownPathError as error:
         raise UsageError(f"{error}{_hint(error, compilation.robot, path)}") from None
-    write_to_stdout("".join(f"{line}\n" for line in _lines(explanation)))
+    lines = _lines(explanation) if derived is None else _derived(explanation, derived)
+    write_to_stdout("".join(f"{line}\n" for line in lines))
     return OK
+
+
+def _complete_controllers(robot: Robot, path: str) -> Derived | None:
+    """Give a robot the controllers of its outputs if a path leads to one; return why its value follows from others."""
+    section, name, field = (*path.strip("/").split("/"), "", "")[:3]
+    if section != "controllers" or field == "parameters":
+        return None
+    from linkforge_compile.core.models.controller import MANAGER
+    from linkforge_compile.formats.ros2_controllers.origins import controllers_with_origins
+
+    completed = controllers_with_origins(robot)
+    if completed:
+        manager = [one for one in robot.controllers if one.name == MANAGER]
+        robot.controllers = [*(one.controller for one in completed), *manager]
+    origins = next((one.derived for one in completed if one.controller.name == name), {})
+    return origins.get(field, origins.get(""))
 
 
 _ONLY_IN_SPECS = {
@@ -141,6 +160,13 @@ def _lines(explanation: Explanation) -> Iterator[str]:
     for link in links:
         if link not in of_value:
             yield from _link(link)
+
+
+def _derived(explanation: Explanation, derived: Derived) -> Iterator[str]:
+    yield explanation.text
+    yield f"not written itself: {derived.why}"
+    if derived.subject and derived.source:
+        yield from place_lines(f"{derived.subject} is written", derived.source.at(*derived.path))
 
 
 def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:

@@ -10,10 +10,11 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-It matches the text that every command and build step of linkforge prints. In a step before the build:
-  linkforge matcher -o linkforge-matcher.json
-  echo "::add-matcher::linkforge-matcher.json"
-Where `linkforge check` is a step of its own, `--format github` needs no matcher.
+It matches the text that every command and build step of linkforge prints. Where `linkforge check` is a step of its own,
+`--format github` needs no matcher.
+
+examples:
+  linkforge matcher -o linkforge-matcher.json && echo "::add-matcher::linkforge-matcher.json"    before the build
 """
 
 

@@ -15,17 +15,18 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-For VS Code and every editor with yaml-language-server, put this on the first line of a spec:
+For VS Code and every editor with yaml-language-server, put this on the first line of a spec, beside the schema:
   # yaml-language-server: $schema=robot.schema.json
-after writing the schema beside it:
-  linkforge schema -o robot.schema.json
 
 With --workspace, editors also complete the names of links, joints, groups, materials and files, and the parameters of
 a module under `with`. Unless -o is given, the schema is written to FOLDER/.linkforge/robot.schema.json. Without
 FOLDER, that is the folder at or above this one, within the repository, that has such a schema; else each folder below
 that has one; else this folder. Run it again when names have changed; new names are valid before that, but not offered.
 It compiles the specs, and so runs xacro files that they use, unless LINKFORGE_NO_XACRO is set.
-  linkforge schema --workspace
+
+examples:
+  linkforge schema -o robot.schema.json    the keys of the language
+  linkforge schema --workspace             with the names of all specs below
 """
 
 

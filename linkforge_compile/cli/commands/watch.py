@@ -35,7 +35,7 @@ examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    compile_command.add_build_arguments(parser)
+    compile_command.add_build_arguments(parser, "the spec, NAME.robot.yaml")
     parser.usage = "linkforge watch [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument("--then", metavar="COMMAND", help="a shell command to run after each compile without errors")

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 NAME is the name of a link, a joint, a sensor or another element in the file; in a file that is not XML, it is a word of
-a line. The source map is FILE.map.json, which
-`linkforge compile --source-map` writes beside the file.
+a line. The source map is FILE.map.json, which `linkforge compile --source-map` writes beside the file.
 
 examples:
   linkforge compile arm.robot.yaml -o build/ --source-map
@@ -127,6 +126,15 @@ def _named(path: Path, document: str, name: str) -> list[_Query]:
     if not found:
         raise _no_such_name(path, name, [element.name for element in elements])
     return [_Query(element.line, 1, f"{element.tag} '{name}'") for element in declared or found]
+
+
+def names_in(path: Path) -> tuple[str, ...]:
+    """Return the names that elements of a file declare, none for a file that is not XML."""
+    from linkforge_compile.source.characters import begins_xml
+
+    document = _text_of(path)
+    elements = _elements_of(path, document) if begins_xml(document) else ()
+    return tuple(dict.fromkeys(element.name for element in elements if element.is_declared))
 
 
 def _lines_with(path: Path, document: str, name: str) -> list[_Query]:

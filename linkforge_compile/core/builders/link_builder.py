@@ -6,7 +6,8 @@ from dataclasses import replace
 from types import TracebackType
 from typing import Any, Protocol, Self, runtime_checkable
 
-from linkforge_compile.core.builders.link_draft import JointDraft, Triple, pose
+from linkforge_compile.core.builders.joint_draft import JointDraft
+from linkforge_compile.core.builders.link_draft import Triple, pose
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.gazebo import GazeboElement

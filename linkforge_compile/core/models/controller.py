@@ -12,6 +12,22 @@ from linkforge_compile.core.part import Element, FrozenMap, extras_last
 MANAGER = "controller_manager"
 """The name of the entry with the parameters of the manager itself, which has no type."""
 
+JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
+"""The fields of a controller with names of joints."""
+
+PARAMETERS_OF_FIELDS: Mapping[str, str] = FrozenMap(
+    {
+        "joints": "joints",
+        "left_wheels": "left_wheel_names",
+        "right_wheels": "right_wheel_names",
+        "sensor": "sensor_name",
+        "frame": "frame_id",
+        "command_interfaces": "command_interfaces",
+        "state_interfaces": "state_interfaces",
+    }
+)
+"""The usual names of the parameters that the fields of a controller become, by field."""
+
 
 @extras_last
 @dataclass(frozen=True)

@@ -50,6 +50,9 @@ class JointType(StrEnum):
 
 dump_like(JointType, str)
 
+SINGLE_AXIS = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
+"""The types of joints that turn about one axis, or slide along one: a mimic can multiply their position."""
+
 _MOTIONS = {
     JointType.REVOLUTE: Motion.TURNING,
     JointType.CONTINUOUS: Motion.TURNING,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple, Self
 
 from linkforge_compile.core.part import FrozenMap, dump_like
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import Key, SourceRef
 
 HARDWARE, CONTROLLER = "ros2_control system", "controller"
 """What a name in the parameters is that of."""
@@ -116,3 +116,20 @@ def loaded_class(parameters: Mapping[str, object], controller: str) -> LoadedCla
         if key == controller and isinstance(value, Mapping):
             return next((LoadedClass((key, name), one) for name, one in value.items() if name == "type"), None)
     return None
+
+
+def place_of_parameter(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the value at a path of a controller was written: an object, and the path from there."""
+    name = path[-1]
+    if isinstance(name, SourcedText) and name.source:
+        return (SourceRef(name.source.node, None, name.source.trail),)
+    return (source, *path)
+
+
+def place_of_parameter_name(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the last name of a path itself was written."""
+    *outer, name = path
+    if isinstance(name, SourcedText) and name.source:
+        return (name.source,)
+    keys = (*outer, Key(name))
+    return (source, *keys)

@@ -86,6 +86,18 @@ NOISELESS_CONTACT = Code("LF7103", _W, "Gazebo's contact sensors have no noise; 
 FRAME_OF_PLUGIN = Code("LF7104", _W, "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is left out")
 FOREIGN_INFO = Code("LF7105", _W, "a sensor of type {type} has no '{info}'; it is left out")
 
+# LF72xx: templates of users
+TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
+UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")
+NO_SUCH_TEMPLATE = Code("LF7203", _E, "no template '{name}' in '{folder}'")
+REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {reason}")
+TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
+NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template makes XML that is not well-formed: {problem}")
+UNREADABLE_TEMPLATE = Code("LF7207", _E, "template '{path}' cannot be read: {reason}")
+UNUSED_TEMPLATE = Code(
+    "LF7208", _W, "'{name}' is unused: linkforge has no template of that name to replace, and no template includes it"
+)
+
 # LF74xx: MJCF
 NESTED_TOO_DEEP = Code(
     "LF7401",
@@ -226,10 +238,10 @@ NO_COLLISION_IN_SDF = Code(
     _W,
     "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
 )
-NOT_FOUND_NESTED = Code(
+NOT_IN_ITS_MODULE = Code(
     "LF7512",
-    _W,
-    "gz_ros2_control finds no joints in nested models, so it does not move '{joint}'; leave out `--nested`",
+    Severity.NOTE,
+    "gz_ros2_control finds no joints in nested models, so '{joint}' is in that of the robot, and not of its module",
     subject="joint",
 )
 NO_BODY_IN_SDF = Code(
@@ -285,6 +297,8 @@ NOTHING_EXECUTES = Code(
     subject="group",
     grouped_by=("reason",),
 )
+UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
+WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 MISSPELLED_CLASS = Code("LF7613", _W, "there is no controller class '{type}'; did you mean '{intended}'?")
 NO_GAINS = Code(
     "LF7614",
@@ -307,8 +321,6 @@ NO_SOLVER = Code(
     "group '{group}' has no solver, because it is that of an end effector; write its `kinematics`",
     subject="group",
 )
-UNKNOWN_PARAMETER = Code("LF7611", _W, "{owner} has no parameter '{name}'{inside}")
-WRONG_PARAMETER = Code("LF7612", _W, "'{name}' of {owner} accepts {expected}, found {found}")
 STATED_TWICE = Code(
     "LF7621",
     _E,
@@ -333,16 +345,4 @@ NO_NAME_OF_A_NODE = Code(
     _W,
     "controller '{controller}' does not start: the name of a node has letters of ASCII, digits and '_' alone, and "
     "begins with no digit",
-)
-
-# LF72xx: templates of users
-TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
-UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name: {reason}")
-NO_SUCH_TEMPLATE = Code("LF7203", _E, "no template '{name}' in '{folder}'")
-REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {reason}")
-TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
-NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template makes XML that is not well-formed: {problem}")
-UNREADABLE_TEMPLATE = Code("LF7207", _E, "template '{path}' cannot be read: {reason}")
-UNUSED_TEMPLATE = Code(
-    "LF7208", _W, "'{name}' is unused: linkforge has no template of that name to replace, and no template includes it"
 )

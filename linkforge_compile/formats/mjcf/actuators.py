@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
 from linkforge_compile.formats.mjcf.joints import is_locked, symmetric
-from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -48,7 +47,7 @@ def drives(robot: Robot) -> Iterator[Drive]:
         if known is None or hardware.name in seen or not robot.has_joint(hardware.name):
             continue
         joint = robot.joints[hardware.name]
-        if joint.type in SINGLE and not joint.mimic:
+        if joint.type in SINGLE_AXIS and not joint.mimic:
             seen.add(joint.name)
             yield Drive(joint, hardware, known, tuple(one for one in interfaces if one is not known))
 

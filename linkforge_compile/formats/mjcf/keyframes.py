@@ -6,14 +6,13 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.actuators import Drive, drives, number_of
 from linkforge_compile.formats.mjcf.joints import range_of
-from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.xml_text import Xml
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def states_of(robot: Robot) -> Iterator[State]:
 def _initial_positions(robot: Robot) -> Iterator[tuple[str, float, SourceRef | None]]:
     """Yield the initial position of each joint that hardware gives one, and its place."""
     for hardware in (joint for system in robot.ros2_controls for joint in system.joints):
-        if not robot.has_joint(hardware.name) or robot.joints[hardware.name].type not in SINGLE:
+        if not robot.has_joint(hardware.name) or robot.joints[hardware.name].type not in SINGLE_AXIS:
             continue
         for state in map(Interface.of, hardware.state_interfaces):
             value = number_of(state.parameters.get(INITIAL_VALUE))

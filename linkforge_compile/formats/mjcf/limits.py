@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
+from linkforge_compile.core.models.joint import SINGLE_AXIS
 from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.diagnostics.codes.formats import (
     BASE_STAYS_FIXED,
@@ -32,7 +33,6 @@ from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.mjcf.names import check_names
 from linkforge_compile.formats.mjcf.sensors import has_opposite_sign, sensor_loss
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
-from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -101,7 +101,7 @@ def check_actuators(robot: Robot) -> Iterator[Diagnostic]:
 
 def check_driven(robot: Robot) -> Iterator[Diagnostic]:
     """A robot with joints that move has an actuator."""
-    if any(joint.type in SINGLE for joint in robot.joints) and not any(drives(robot)):
+    if any(joint.type in SINGLE_AXIS for joint in robot.joints) and not any(drives(robot)):
         yield NO_ACTUATOR.at(robot.source, "name", robot=robot.name)
 
 
@@ -123,7 +123,7 @@ def check_velocities(robot: Robot) -> Iterator[Diagnostic]:
     """MuJoCo limits the command of a velocity actuator, and no velocity."""
     commanded = {drive.joint.name for drive in drives(robot) if drive.interface == "velocity"}
     for joint in robot.joints:
-        if joint.type in SINGLE and joint.limits and joint.limits.velocity and joint.name not in commanded:
+        if joint.type in SINGLE_AXIS and joint.limits and joint.limits.velocity and joint.name not in commanded:
             yield NO_VELOCITY_LIMIT.at(joint.limits.source or joint.source, "velocity", joint=joint.name)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement, property_path
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.formats.losses import Loss, joint_losses
 from linkforge_compile.formats.lost_xml import lost_xml
@@ -15,7 +15,6 @@ from linkforge_compile.formats.mjcf.actuators import INTERFACES, drives, number_
 from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE
 from linkforge_compile.formats.mjcf.sensors import PLUGINS, sensor_losses
 from linkforge_compile.formats.parts import doubtful_parts_in
-from linkforge_compile.formats.single_axis import SINGLE
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -88,7 +87,7 @@ def _of_hardware(robot: Robot) -> Iterator[Loss]:
             if joint.name not in driven:
                 yield from _undriven(hardware, joint)
             for state in map(Interface.of, hardware.state_interfaces):
-                is_kept = state == "position" and joint.type in SINGLE
+                is_kept = state == "position" and joint.type in SINGLE_AXIS
                 if number_of(state.parameters.get(INITIAL_VALUE)) and not is_kept:
                     yield Loss(f"initial {state}", hardware.name, state.source or hardware.source)
 
@@ -97,7 +96,7 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
     names = [str(Interface.of(name)) for name in hardware.command_interfaces]
     if not names:
         return
-    if joint.type not in SINGLE:
+    if joint.type not in SINGLE_AXIS:
         what = f"actuators of {joint.type} joints"
     elif joint.mimic and any(name in INTERFACES for name in names):
         what = "actuators of joints that mimic others"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.joint import SINGLE_AXIS
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import KinematicTree
 from linkforge_compile.formats.mjcf.actuators import actuator_element, actuator_settings, drives
@@ -14,7 +15,6 @@ from linkforge_compile.formats.mjcf.joints import equality_elements, joint_setti
 from linkforge_compile.formats.mjcf.keyframes import key_elements
 from linkforge_compile.formats.mjcf.meshes import mesh_assets
 from linkforge_compile.formats.mjcf.sensors import sensor_elements
-from linkforge_compile.formats.single_axis import SINGLE
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def robot_view(robot: Robot, *, is_free: bool) -> View:
     """Return what templates see of a robot in MJCF; one that `is_free` has six degrees of freedom more."""
     tree, meshes = KinematicTree.of(robot), mesh_assets(robot)
     driven = tuple(drives(robot))
-    joints = (joint_settings(joint) for joint in robot.joints if joint.type in SINGLE)
+    joints = (joint_settings(joint) for joint in robot.joints if joint.type in SINGLE_AXIS)
     joint_class = JointClass.of((*joints, *map(actuator_settings, driven)))
     return View(
         attributes=attributes_at(robot.source, "name", model=robot.name),

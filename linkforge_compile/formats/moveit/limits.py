@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.controller_kinds import KINDS, STATES, kind_of, lift_parameters
 from linkforge_compile.diagnostics.codes.formats import (
     NO_GROUP_TO_PLAN,
     NO_JOINT_STATES,
@@ -16,11 +18,12 @@ from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.groups import chain_groups, faulty_groups, joints_by_group
 from linkforge_compile.formats.moveit.view import SOLVER_PARAMETERS, executing_controllers, moveit_view
+from linkforge_compile.formats.ros2_controllers.class_names import OTHER_CLASSES, misspelled_class
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers, has_faulty_names
-from linkforge_compile.formats.ros2_controllers.kinds import KINDS, OTHER_CLASSES, STATES, misspelled_class
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
+    from linkforge_compile.core.models.controller import Controller
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.diagnostics import Diagnostic
 
@@ -54,7 +57,7 @@ def check_joint_states(robot: Robot) -> Iterator[Diagnostic]:
 
 def check_execution(robot: Robot) -> Iterator[Diagnostic]:
     """The joints of each planning group are those of controllers that MoveIt can send motions to."""
-    if any(has_faulty_names(robot, one) or misspelled_class(one.type) for one in robot.controllers):
+    if any(map(partial(_is_faulty, robot), map(lift_parameters, robot.controllers))):
         return
     controlled = {name for one in executing_controllers(robot) for name in one.joints}
     groups, faulty, hardware = joints_by_group(robot), faulty_groups(robot), commanded_joints(robot)
@@ -63,6 +66,12 @@ def check_execution(robot: Robot) -> Iterator[Diagnostic]:
         missing = [name for name in joints if name not in controlled]
         if missing and group.name not in faulty:
             yield NOTHING_EXECUTES.at(group.source, group=group.name, reason=_reason(robot, joints, missing, hardware))
+
+
+def _is_faulty(robot: Robot, controller: Controller) -> bool:
+    """Return whether the joints of a controller are not known, because of its names, its class or its parameters."""
+    is_misread = not controller.joints and kind_of(controller.type).parameters.get("joints") in controller.parameters
+    return is_misread or has_faulty_names(robot, controller) or misspelled_class(controller.type) is not None
 
 
 def _reason(robot: Robot, joints: list[str], missing: list[str], hardware: Mapping[str, object]) -> str:

@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.controller_kinds import EFFORT_GRIPPER, GRIPPER, OLD_GRIPPER, TRAJECTORY
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.groups import chain_groups
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
-from linkforge_compile.formats.ros2_controllers.kinds import EFFORT_GRIPPER, GRIPPER, OLD_GRIPPER, TRAJECTORY
 from linkforge_compile.formats.source_map import origin_of
 from linkforge_compile.formats.views import View
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.core.models.controller import MANAGER
-from linkforge_compile.formats.ros2_controllers.kinds import (
+from linkforge_compile.core.models.controller_kinds import (
     DIFF_DRIVE,
     EFFORT_GRIPPER,
     EFFORT_GROUP,

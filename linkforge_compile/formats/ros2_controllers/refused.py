@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
-from linkforge_compile.core.models.manager_parameters import loaded_class
+from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field, stated_field
+from linkforge_compile.core.models.manager_parameters import loaded_class, place_of_parameter
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import (
-    LIST_OF_SEVERAL_TYPES,
     NO_NAME_OF_A_NODE,
     ONE_OF_SEVERAL,
     STATED_TWICE,
 )
-from linkforge_compile.formats.ros2_controllers.kinds import kind_of
-from linkforge_compile.formats.ros2_controllers.view import place_of, typed_parameters
+from linkforge_compile.formats.ros2_controllers.check_parameters import check_lists
+from linkforge_compile.formats.ros2_controllers.complete import has_faulty_names
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _NODE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Diagnostic]:
     """ROS 2 reads the names and parameters of all controllers, which are written as the spec states them."""
     for controller in robot.controllers:
-        yield from _check_lists(controller)
+        yield from check_lists(controller)
         if controller.name != MANAGER:
             yield from _check_stated_once(controller)
     manager = robot.controllers.get(MANAGER)
@@ -39,7 +39,8 @@ def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Dia
         yield from _check_name(controller)
         if manager:
             yield from _check_loaded_class(manager, controller)
-        yield from _check_single_fields(controller)
+        if not has_faulty_names(robot, controller):
+            yield from _check_single_fields(controller)
 
 
 def _check_name(controller: Controller) -> Iterator[Diagnostic]:
@@ -51,16 +52,19 @@ def _check_name(controller: Controller) -> Iterator[Diagnostic]:
 def _check_single_fields(controller: Controller) -> Iterator[Diagnostic]:
     """A field of which a class has one name, such as the joint of a gripper, has no others."""
     for field in sorted(kind_of(controller.type).single):
-        for place, item in enumerate(getattr(controller, field)[1:], start=1):
+        first, *others = getattr(controller, field) or ("",)
+        for place, item in enumerate(others, start=1):
+            if item == first:
+                continue  # LF4160
             facts = {"type": controller.type, "field": field, "item": item, "controller": controller.name}
-            yield ONE_OF_SEVERAL.at(controller.source, field, place, **facts)
+            yield ONE_OF_SEVERAL.at(controller.source, *path_of_field(controller, field), place, **facts)
 
 
 def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
-    """A field is not a parameter as well: names in parameters are not checked, and take no prefix."""
+    """A field is not a parameter as well, of which one would have no effect."""
     for field, name in kind_of(controller.type).parameters.items():
-        stated = "group" if field == "joints" and not controller.joints else field
-        if name in controller.parameters and getattr(controller, stated):
+        stated = stated_field(controller, field)
+        if stated and name in controller.parameters:
             notes = [Note(f"`{stated}` is here", controller.source.at(stated))] if controller.source else []
             facts = {"controller": controller.name, "parameter": name, "field": stated}
             yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, owner="", **facts)
@@ -71,29 +75,7 @@ def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator
     loaded = loaded_class(manager.parameters, controller.name)
     if loaded and loaded.type != controller.type:
         notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
-        place, owner = place_of(manager.source, "parameters", *loaded.path), f" of '{MANAGER}'"
+        place, owner = place_of_parameter(manager.source, "parameters", *loaded.path), f" of '{MANAGER}'"
         yield STATED_TWICE.at(
             *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
         )
-
-
-def _check_lists(controller: Controller) -> Iterator[Diagnostic]:
-    """A list has items of one type, and no lists or maps: the parser of rcl refuses the whole file."""
-    for path, value in _values(typed_parameters(controller), ()):
-        if isinstance(value, list) and not has_one_type(value):
-            place, name = place_of(controller.source, "parameters", *path), ".".join(path)
-            yield LIST_OF_SEVERAL_TYPES.at(*place, controller=controller.name, parameter=name)
-
-
-def has_one_type(items: Sequence[object]) -> bool:
-    """Whether a list is one that ROS 2 has a type for."""
-    integers = all(isinstance(item, int) and not isinstance(item, bool) for item in items)
-    return integers or any(all(isinstance(item, type_) for item in items) for type_ in (str, bool, float))
-
-
-def _values(parameters: Mapping[str, object], path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], object]]:
-    for name, value in parameters.items():
-        if isinstance(value, Mapping):
-            yield from _values(value, (*path, name))
-        else:
-            yield (*path, name), value

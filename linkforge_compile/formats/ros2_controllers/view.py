@@ -6,19 +6,19 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
-from linkforge_compile.core.models.manager_parameters import SourcedText
+from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
+from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.formats.element import placed
-from linkforge_compile.formats.ros2_controllers.complete import complete_controllers
-from linkforge_compile.formats.ros2_controllers.kinds import kind_of
+from linkforge_compile.formats.ros2_controllers.complete import completed_controllers
 from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, type_of
 from linkforge_compile.formats.views import View
-from linkforge_compile.source import Key, SourceRef
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.ros2_controllers.kinds import Kind
+    from linkforge_compile.formats.ros2_controllers.complete import Completed
     from linkforge_compile.formats.ros2_controllers.parameters import Type
+    from linkforge_compile.source import SourceRef
 
 UPDATE_RATE = 100
 """The rate of a controller manager [Hz] that is not stated; its own default."""
@@ -31,7 +31,7 @@ def controllers_view(robot: Robot) -> View:
     """
     manager = robot.controllers.get(MANAGER)
     stated = typed_parameters(manager) if manager else {}
-    controllers = [_view(one, stated.get(one.name)) for one in complete_controllers(robot)]
+    controllers = [_view(one, stated.get(one.controller.name)) for one in completed_controllers(robot)]
     elsewhere = {key for one in controllers for key in (one.name, f"{one.name}.type")}
     own = {key: value for key, value in stated.items() if key not in elsewhere}
     return View(
@@ -40,10 +40,10 @@ def controllers_view(robot: Robot) -> View:
     )
 
 
-def _view(controller: Controller, of_manager: object) -> View:
+def _view(completed: Completed, of_manager: object) -> View:
+    controller, _ = completed
     in_manager = of_manager if isinstance(of_manager, Mapping) else {}
-    kind = kind_of(controller.type)
-    parameters = {**dict(_of_fields(controller, kind)), **typed_parameters(controller)}
+    parameters = {**dict(_of_fields(completed)), **typed_parameters(controller)}
     return View(
         name=placed(controller.name, controller.source),
         type=placed(controller.type or "", controller.source, "type"),
@@ -52,14 +52,19 @@ def _view(controller: Controller, of_manager: object) -> View:
     )
 
 
-def _of_fields(controller: Controller, kind: Kind) -> Iterator[tuple[str, object]]:
+def _of_fields(completed: Completed) -> Iterator[tuple[str, object]]:
     """Yield the parameters that the fields of a controller become."""
+    controller, derived = completed
+    kind = kind_of(controller.type)
     for field, name in kind.parameters.items():
         value = getattr(controller, field)
         if value:
             is_list = not isinstance(value, str)
             written = value[0] if is_list and field in kind.single else list(value) if is_list else value
-            yield placed(name, controller.source, field), written
+            if origin := derived.get(field):
+                yield placed(name, origin.source, *origin.path), written
+            else:
+                yield placed(name, controller.source, *path_of_field(controller, field)), written
 
 
 def typed_parameters(controller: Controller) -> dict[str, object]:
@@ -86,27 +91,10 @@ def _placed(values: Mapping[str, object], source: SourceRef | None, *path: str) 
     for name, value in values.items():
         if isinstance(value, Mapping):
             if value:
-                found[placed(name, *place_of(source, *path, name))] = _placed(value, source, *path, name)
+                found[placed(name, *place_of_parameter(source, *path, name))] = _placed(value, source, *path, name)
         elif value is not None:
-            found[placed(name, *place_of(source, *path, name))] = _of_one_type(value)
+            found[placed(name, *place_of_parameter(source, *path, name))] = _of_one_type(value)
     return found
-
-
-def place_of(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
-    """Return where the value at a path of a controller was written: an object, and the path from there."""
-    name = path[-1]
-    if isinstance(name, SourcedText) and name.source:
-        return (SourceRef(name.source.node, None, name.source.trail),)
-    return (source, *path)
-
-
-def place_of_key(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
-    """Return where the last name of a path itself was written."""
-    *outer, name = path
-    if isinstance(name, SourcedText) and name.source:
-        return (name.source,)
-    keys = (*outer, Key(name))
-    return (source, *keys)
 
 
 def _of_one_type(value: object) -> object:

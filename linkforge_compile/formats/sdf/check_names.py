@@ -17,7 +17,7 @@ from linkforge_compile.formats.kinematic_tree import WORLD
 from linkforge_compile.formats.sdf.models import SEPARATOR
 from linkforge_compile.formats.sdf.part_names import PartNames, repeated
 from linkforge_compile.formats.sdf.raw_sensors import collisions_in
-from linkforge_compile.formats.sdf.settings import OF_MODEL, Settings, settings_by_reference
+from linkforge_compile.formats.sdf.settings import OF_MODEL, Settings
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 def check_names(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
     """Yield the names of a robot that Gazebo refuses, and those that are different in its SDF."""
-    settings = settings_by_reference(robot)
-    names = PartNames(layout, settings)
+    settings = layout.settings
+    names = PartNames(layout)
     yield from _reserved(robot, layout, settings)
     yield from _taken(robot, layout, settings, names)
     yield from _renamed(robot, layout, names)

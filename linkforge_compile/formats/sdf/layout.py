@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
-from linkforge_compile.core.models.joint import Joint, JointType
-from linkforge_compile.core.models.sensor import SensorType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
+from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
-from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, settings_by_reference
-from linkforge_compile.formats.single_axis import SINGLE
+from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
+from linkforge_compile.formats.sdf.relative_pose import NO_TURN, relative_pose
+from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
@@ -29,10 +32,12 @@ class Layout:
 
     A body of Gazebo has a mass. A link without one is a frame: on the link that a fixed joint holds it to, else on the
     first link with a mass that fixed joints hold to it. `frames` has the link below each frame. `weightless` are the
-    links that need a body all the same, and have a minimal mass.
+    links that need a body all the same, and have a minimal mass, such as that of a force-torque sensor, which is in a
+    joint of two bodies. `own_settings` are those of Gazebo, as written.
     """
 
     robot: Robot
+    own_settings: Mapping[str | None, Settings]
     above: Mapping[str, Joint]
     frames: Mapping[str, str]
     carriers: Mapping[str, str]
@@ -40,24 +45,27 @@ class Layout:
 
     @classmethod
     def of(cls, robot: Robot) -> Layout:
-        above, bodies = parent_joints(robot.joints), _links_that_need_bodies(robot)
-        holding = child_joints(joint for joint in fixed_joints(robot) if joint.child not in bodies)
+        above, settings = parent_joints(robot.joints), settings_by_reference(robot)
+        bodies, sensed = _links_that_need_bodies(robot, settings), _axes_of_forces(robot, settings)
+        blocked = {*bodies, *sensed}
+        holding = child_joints(joint for joint in fixed_joints(robot) if joint.child not in blocked)
         frames: dict[str, str] = {}
         carriers: dict[str, str] = {}
         weightless: set[str] = set()
         for link in robot.links:
-            joint = above.get(link.name)
-            if _has_mass(link) or (link.name == WORLD and joint is None):
+            name, joint = link.name, above.get(link.name)
+            if _has_mass(link) or (name == WORLD and joint is None):
                 continue
-            if link.name in bodies:
-                weightless.add(link.name)
-            elif joint and joint.type == JointType.FIXED and not (joint.parent == WORLD and WORLD not in above):
-                frames[link.name] = joint.parent
-            elif carrier := _first_with_mass(link.name, robot, holding):
-                frames[link.name] = carriers[link.name] = carrier
+            is_held = joint and joint.type == JointType.FIXED and not (joint.parent == WORLD and WORLD not in above)
+            if name in bodies:
+                weightless.add(name)
+            elif joint and is_held and name not in sensed:
+                frames[name] = joint.parent
+            elif carrier := _carrier(name, robot, holding, above, sensed.get(name, frozenset())):
+                frames[name] = carriers[name] = carrier
             else:
-                weightless.add(link.name)
-        return cls(robot, above, frames, carriers, frozenset(weightless))
+                weightless.add(name)
+        return cls(robot, settings, above, frames, carriers, frozenset(weightless))
 
     def is_world(self, link: str) -> bool:
         """Whether a link is the world itself."""
@@ -93,7 +101,7 @@ class Layout:
         """Whether a joint is one in SDF, where it moves or holds two bodies; any other is a frame."""
         if joint.type == JointType.FIXED:
             return self.body_of(joint.child) != self.body_of(joint.parent)
-        return joint.type in SINGLE
+        return joint.type in SINGLE_AXIS
 
     @cached_property
     def joint_names(self) -> Mapping[str, str]:
@@ -106,6 +114,18 @@ class Layout:
             taken.add(names[joint.name])
         return names
 
+    @cached_property
+    def settings(self) -> Mapping[str | None, Settings]:
+        """The settings of Gazebo; sensors of a joint that is a frame are those of the link below it, at that frame."""
+        settings = dict(self.own_settings)
+        for joint in self.robot.joints:
+            own = settings.get(joint.name, ())
+            sensors = [one for one in own if one.tag == "sensor" and not any(frames_of_forces(one))]
+            if sensors and not self.is_joint(joint):
+                settings[joint.name] = [one for one in own if one not in sensors]
+                settings[joint.child] = [*settings.get(joint.child, ()), *sensors]
+        return settings
+
     def is_body(self, link: Link) -> bool:
         """Whether a link is a link in SDF, and neither a frame nor the world."""
         return link.name not in self.frames and not self.is_world(link.name)
@@ -115,18 +135,32 @@ def _has_mass(link: Link) -> bool:
     return link.mass > 0
 
 
-def _links_that_need_bodies(robot: Robot) -> set[str]:
-    """Return the links that cannot be frames: a force is sensed in their joint, or they have elements of a body."""
-    needed = {one.link_name for one in robot.sensors if one.type == SensorType.FORCE_TORQUE}
-    for name, settings in settings_by_reference(robot).items():
-        tags = {one.tag for one in settings}
-        if name and robot.has_link(name):
-            needed |= {name} if tags & LINK_ELEMENTS - OF_FRAME else set()
-        elif name and robot.has_joint(name) and "sensor" in tags:
-            needed.add(robot.joints[name].child)
-    return needed
+def _links_that_need_bodies(robot: Robot, settings: Mapping[str | None, Settings]) -> Set[str]:
+    """Return the links that cannot be frames, as they have elements of a body."""
+    of_bodies = LINK_ELEMENTS - OF_FRAME
+    return {link.name for link in robot.links if any(one.tag in of_bodies for one in settings.get(link.name, ()))}
 
 
-def _first_with_mass(link: str, robot: Robot, holding: Mapping[str, Sequence[Joint]]) -> str | None:
-    """Return the first link with a mass that fixed joints hold to a link, by links without one."""
-    return next((one.child for one in walk_down((link,), holding) if _has_mass(robot.links[one.child])), None)
+def _axes_of_forces(robot: Robot, settings: Mapping[str | None, Settings]) -> Mapping[str, Set[str]]:
+    """Return the links in whose joint forces are sensed, with the frames of the axes: parent, child or sensor."""
+    axes: dict[str, set[str]] = defaultdict(set)
+    for sensor in robot.sensors:
+        if sensor.type == SensorType.FORCE_TORQUE:
+            info = sensor.force_torque_info
+            axes[sensor.link_name].add(info.frame if info else ForceTorqueFrame.CHILD)
+    for joint in robot.joints:
+        for frame in chain.from_iterable(map(frames_of_forces, settings.get(joint.name, ()))):
+            axes[joint.child].add(frame)
+    return axes
+
+
+def _carrier(
+    link: str, robot: Robot, holding: Mapping[str, Sequence[Joint]], above: Mapping[str, Joint], axes: Set[str]
+) -> str | None:
+    """Return the first link with a mass that fixed joints hold to a link, by links without one.
+
+    Gazebo turns a force in the axes of the child into those of the carrier, which must be parallel to them.
+    """
+    carrier = next((one.child for one in walk_down((link,), holding) if _has_mass(robot.links[one.child])), None)
+    is_turned = carrier and relative_pose(carrier, link, above).turn != NO_TURN
+    return None if is_turned and ForceTorqueFrame.CHILD in axes else carrier

@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     MIMIC_OF_ENGINE,
     NO_BODY_IN_SDF,
     NO_MIMIC_IN_SDF,
-    NOT_FOUND_NESTED,
+    NOT_IN_ITS_MODULE,
     NOT_IN_SDF,
     RESERVED_IN_SDF,
     STAYS_A_URI,
@@ -28,7 +28,7 @@ from linkforge_compile.formats.sdf.check_names import check_names, is_reserved
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.links import has_possible_inertia
 from linkforge_compile.formats.sdf.losses import lost_parts
-from linkforge_compile.formats.sdf.models import ROBOT, Models
+from linkforge_compile.formats.sdf.models import ROBOT, Models, moved_by_gazebo
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
 from linkforge_compile.formats.single_axis import leader_of
 
@@ -96,19 +96,15 @@ _CLASSIC_FILE = re.compile(r"(?:.*/)?libgazebo_\w+\.so")
 
 
 def check_nested(robot: Robot, layout: Layout) -> Iterator[Diagnostic]:
-    """A module has a name that SDF keeps for nothing else, and gz_ros2_control looks into the outermost model alone."""
+    """A module has a name that SDF keeps for nothing else; a joint that gz_ros2_control moves is in no nested model."""
     models = Models(layout, is_nested=True)
     uses = {use.module: use for link in robot.links if link.source for use in link.source.trail}
     for name in dict.fromkeys(model[-1] for model in models.all if model):
         if is_reserved(name):
             yield RESERVED_IN_SDF.at(uses[name], name=name)
-    for hardware in robot.ros2_controls:
-        for joint in hardware.joints if hardware.hardware_plugin.startswith(_OF_GAZEBO) else ():
-            if robot.has_joint(joint.name) and models.of_joint(robot.joints[joint.name]) != ROBOT:
-                yield NOT_FOUND_NESTED.at(joint.source, joint=joint.name)
-
-
-_OF_GAZEBO = ("gz_ros2_control/", "ign_ros2_control/")
+    for joint in moved_by_gazebo(robot):
+        if models.innermost(robot.joints[joint.name]) != ROBOT:
+            yield NOT_IN_ITS_MODULE.at(joint.source, joint=joint.name)
 
 
 def check_files(robot: Robot) -> Iterator[Diagnostic]:

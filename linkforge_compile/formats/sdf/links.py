@@ -16,22 +16,20 @@ from linkforge_compile.formats.sdf.meshes import MeshUris
 from linkforge_compile.formats.sdf.models import Models
 from linkforge_compile.formats.sdf.part_names import NamedShape, PartNames
 from linkforge_compile.formats.sdf.raw_sensors import sensor_elements
-from linkforge_compile.formats.sdf.settings import Settings, collision_elements, link_elements, shape_elements
+from linkforge_compile.formats.sdf.settings import collision_elements, link_elements, shape_elements
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
+    pass
 
 
 class Links:
     """Makes the views of the links that are bodies."""
 
-    def __init__(
-        self, robot: Robot, layout: Layout, models: Models, settings: Mapping[str | None, Settings], uris: MeshUris
-    ) -> None:
-        self._layout, self._models, self._settings, self._uris = layout, models, settings, uris
-        self.names = PartNames(layout, settings)
+    def __init__(self, layout: Layout, models: Models, uris: MeshUris) -> None:
+        self._layout, self._models, self._settings, self._uris = layout, models, layout.settings, uris
+        self.names = PartNames(layout)
 
     def view(self, link: Link, sensors: Mapping[str, list[View]]) -> View:
         """Return a link with the shapes and sensors of all that it holds; `sensors` are those of each link."""
@@ -48,7 +46,7 @@ class Links:
 
     def _settings_of(self, link: Link, held: Iterable[Link]) -> Xml:
         of_gazebo = self._settings.get(link.name, ())
-        sensors = (sensor_elements(self._settings.get(one.name, ()), one, link, self.names) for one in held)
+        sensors = (sensor_elements(self._settings.get(one.name, ()), one, link, self.names.collision) for one in held)
         return Xml("".join([link_elements(of_gazebo), *sensors]))
 
     def _visual(self, named: NamedShape, body: Link) -> Xml:

@@ -21,7 +21,6 @@ from linkforge_compile.formats.sdf.settings import (
     OF_JOINT,
     OF_MODEL,
     replaced_settings,
-    settings_by_reference,
 )
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
         if sensor.type == SensorType.FORCE_TORQUE and not (above and layout.is_joint(above)):
             yield Loss("force-torque sensors without a joint", sensor.name, sensor.source, ("link",))
     yield from _lost_settings(robot, layout)
-    for reference, setting in replaced_settings(robot):
+    for reference, setting in replaced_settings(layout.settings):
         words = f"second <surface>, so no place for the setting '{setting.tag}'"
         yield Loss(words, reference, setting.source, setting.path)
     for block in robot.gazebo_elements:
@@ -71,7 +70,7 @@ def _losses_of_world(robot: Robot, layout: Layout) -> Iterator[Loss]:
 
 
 def _lost_settings(robot: Robot, layout: Layout) -> Iterator[Loss]:
-    for reference, settings in settings_by_reference(robot).items():
+    for reference, settings in layout.settings.items():
         held, where = _held_settings(reference, robot, layout)
         for setting in settings:
             if setting.tag not in held:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -18,6 +18,8 @@ from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
 
 SEPARATOR = "::"
 """Between the names of a nested model and of a part of it."""
@@ -32,7 +34,8 @@ class Models:
     """Which model each link and joint is in, and how they refer to each other.
 
     An element of SDF may refer to what is in its own model, or in models inside that. So a frame is in the model of the
-    body that holds it, and a joint in the innermost one that has both of its links, and the joint that it mimics.
+    body that holds it, and a joint in the innermost one that has both of its links, and the joint that it mimics. A
+    joint that gz_ros2_control moves is in that of the robot, as the plugin looks into no other.
     `all` lists the models with bodies, each before those inside it. A model is where the root of its module is.
     """
 
@@ -57,6 +60,10 @@ class Models:
 
     def of_joint(self, joint: Joint) -> Model:
         return self._of_joints[joint.name]
+
+    def innermost(self, joint: Joint) -> Model:
+        """Return the innermost model that has both links of a joint."""
+        return _common(self.of_link(joint.parent), self.of_link(joint.child))
 
     def inside(self, model: Model) -> Sequence[Model]:
         """Return the models directly inside another."""
@@ -116,7 +123,8 @@ class Models:
 
     def _models_of_joints(self) -> Mapping[str, Model]:
         joints = self._layout.robot.joints
-        models = {one.name: _common(self.of_link(one.parent), self.of_link(one.child)) for one in joints}
+        models = {one.name: self.innermost(one) for one in joints}
+        models |= {one.name: ROBOT for one in moved_by_gazebo(self._layout.robot)}
         leaders = {one.name: one.mimic.joint for one in joints if one.mimic and one.mimic.joint in models}
         for _ in leaders:  # one that is mimicked may mimic another
             raised = {name: _common(models[name], models[leader]) for name, leader in leaders.items()}
@@ -136,6 +144,16 @@ class Models:
             names[model] = unique_name(f"{name}_model" if name in of_parts else name, around)
             around.add(names[model])
         return names
+
+
+def moved_by_gazebo(robot: Robot) -> Iterator[Ros2ControlJoint]:
+    """Yield the joints of a robot that gz_ros2_control moves."""
+    for hardware in robot.ros2_controls:
+        if hardware.hardware_plugin.startswith(_OF_GAZEBO):
+            yield from (joint for joint in hardware.joints if robot.has_joint(joint.name))
+
+
+_OF_GAZEBO = ("gz_ros2_control/", "ign_ros2_control/")
 
 
 def _common(one: Model, other: Model) -> Model:

@@ -41,9 +41,9 @@ class PartNames:
     Sensors keep their names; then collisions, to which contact sensors refer, have their own where they can.
     """
 
-    def __init__(self, layout: Layout, settings: Mapping[str | None, Settings]) -> None:
+    def __init__(self, layout: Layout) -> None:
         self._layout = layout
-        self._of_links = _sensors_of_links(layout.robot, settings)
+        self._of_links = _sensors_of_links(layout.robot, layout.settings)
         self.visuals: dict[str, list[NamedShape]] = {}
         self.collisions: dict[str, list[NamedShape]] = {}
         for body, links in layout.held.items():

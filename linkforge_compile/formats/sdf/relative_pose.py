@@ -59,7 +59,9 @@ class Pose(NamedTuple):
         return Pose((-x, -y, -z), self.turn.inverse)
 
 
-_HERE = Pose((0.0, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))
+NO_TURN = Quaternion(0.0, 0.0, 0.0, 1.0)
+
+_HERE = Pose((0.0, 0.0, 0.0), NO_TURN)
 
 
 def relative_pose(link: str, base: str, above: Mapping[str, Joint]) -> Pose:

@@ -175,9 +175,9 @@ def collision_elements(settings: Settings) -> Xml:
     return Xml("".join([*_tags_for(by_tag, _COLLISION), surface, of_gazebo]))
 
 
-def replaced_settings(robot: Robot) -> Iterator[tuple[str, Setting]]:
+def replaced_settings(all_settings: Mapping[str | None, Settings]) -> Iterator[tuple[str, Setting]]:
     """Yield the settings of contacts that a <surface> of the user's replaces, each with the name of its link."""
-    for reference, settings in settings_by_reference(robot).items():
+    for reference, settings in all_settings.items():
         if reference is not None and _has_surface(shape_elements("collision", settings)):
             yield from ((reference, one) for one in settings if one.tag in _FRICTION or one.tag in _CONTACT)
 

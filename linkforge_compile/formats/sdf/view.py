@@ -15,12 +15,7 @@ from linkforge_compile.formats.sdf.links import Links
 from linkforge_compile.formats.sdf.meshes import MeshUris
 from linkforge_compile.formats.sdf.models import ROBOT, Model, Models
 from linkforge_compile.formats.sdf.part_names import PartNames
-from linkforge_compile.formats.sdf.settings import (
-    Settings,
-    model_elements,
-    nested_model_elements,
-    settings_by_reference,
-)
+from linkforge_compile.formats.sdf.settings import model_elements, nested_model_elements
 from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
@@ -55,34 +50,25 @@ def sdf_version(robot: Robot, choices: SdfChoices) -> str:
 
 def robot_view(robot: Robot, choices: SdfChoices) -> View:
     """Return what templates see of a robot in SDF: its version, and the view of the outermost model."""
-    version, settings = sdf_version(robot, choices), settings_by_reference(robot)
-    layout = Layout.of(robot)
+    version, layout = sdf_version(robot, choices), Layout.of(robot)
     models = Models(layout, is_nested=choices.is_nested)
     uris = MeshUris(robot, is_resolved=choices.has_files)
-    views = _ModelViews(layout, models, settings, uris, has_mimic=version == WITH_MIMIC)
+    views = _ModelViews(layout, models, uris, has_mimic=version == WITH_MIMIC)
     attributes = attributes_at(robot.source, "name", name=robot.name, canonical_link=models.canonical_link(ROBOT))
     plugins = [
         plugin_view(plugin) for block in robot.gazebo_elements if block.reference is None for plugin in block.plugins
     ]
-    of_robot = model_elements(settings.get(None, ()))
+    of_robot = model_elements(layout.settings.get(None, ()))
     return View(version=version, model=views.view(ROBOT, attributes, NOTHING, of_robot, plugins))
 
 
 class _ModelViews:
     """Makes the views of models, with the parts in them and the models inside."""
 
-    def __init__(
-        self,
-        layout: Layout,
-        models: Models,
-        settings: Mapping[str | None, Settings],
-        uris: MeshUris,
-        *,
-        has_mimic: bool,
-    ) -> None:
-        robot = layout.robot
+    def __init__(self, layout: Layout, models: Models, uris: MeshUris, *, has_mimic: bool) -> None:
+        robot, settings = layout.robot, layout.settings
         self._models, self._flags = models, nested_model_elements(settings.get(None, ()))
-        links = Links(robot, layout, models, settings, uris)
+        links = Links(layout, models, uris)
         on_links, in_joints = _sensors(robot, layout, links.names)
         self._frames: dict[Model, list[Xml]] = defaultdict(list)
         self._links: dict[Model, list[View]] = defaultdict(list)
@@ -134,7 +120,8 @@ def _sensors(
 def _sensor(sensor: Sensor, views: UrdfViews, layout: Layout, names: PartNames) -> View:
     """Return a sensor as in a URDF for Gazebo Sim, which is SDF, where it is exactly."""
     view = sensor_view(views, sensor, layout.robot, "gz")
-    is_on_frame = sensor.link_name in layout.frames
+    # A joint has the frame of the link below it.
+    is_on_frame = sensor.link_name in layout.frames and sensor.type != SensorType.FORCE_TORQUE
     view.pose = pose(sensor.origin, relative_to=sensor.link_name if is_on_frame else None)
     contact = sensor.contact_info
     if contact and view.info:

@@ -1,0 +1,1 @@
+"""Completion of command lines: `finder` answers a shell through argcomplete, `candidates` knows what a word may be."""

@@ -1,0 +1,129 @@
+"""Fixes: edits of a file that remove the cause of a diagnostic."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.characters import on_one_line
+
+_LONGEST = 2_000
+"""Characters of a text in which a word is looked for, and of what replaces it."""
+
+_QUOTES = ("'", '"')
+_MARKS_OF_FLOW = (",", "[", "]", "{", "}")
+
+_PLAIN = re.compile(r"[\w./+~°µμ-](?:[\w ./+~*^()²³·°-]*[\w./+~*^()²³·°-])?")
+"""A word that means the same without quotes, also in a flow list or map."""
+
+
+class Edit(NamedTuple):
+    """The text that replaces what a span contains; an empty span is a place at which to insert it."""
+
+    span: Span
+    text: str
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """The indexes of its begin and end in the text of the file, without byte order mark."""
+        return self.span.file.index_of(*self.span.start), self.span.file.index_of(*self.span.end)
+
+
+@dataclass(frozen=True)
+class Fix:
+    """Edits of one or several files that belong together, and what they do, such as "write 'rod'".
+
+    A safe one is certain: it is what the author intended, and changes nothing that compiles today.
+    """
+
+    title: str
+    edits: tuple[Edit, ...]
+    is_safe: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "title", on_one_line(self.title))
+
+
+class Replacement(NamedTuple):
+    """What to write in place of a part of a span; of the whole span if `old` is empty."""
+
+    old: str
+    new: str
+    is_safe: bool = False
+    is_whole: bool = False
+    """Whether `old` has to be all that the span contains, without the quotes around it, which are replaced too."""
+
+    def filled(self, facts: Mapping[str, object]) -> Replacement | None:
+        """Return it with facts for its `{name}` fields; None if there is no such fact."""
+        try:
+            return self._replace(old=self.old.format_map(facts), new=self.new.format_map(facts))
+        except KeyError:
+            return None
+
+    def within(self, span: Span | None) -> Fix | None:
+        """Return the fix of a text in a spec; None if the span does not have `old` exactly once.
+
+        An expression computes the value that a message shows, so nothing in one is replaced by a word.
+        """
+        if span is None or span.file.is_xml:
+            return None
+        begin, end = span.file.index_of(*span.start), span.file.index_of(*span.end)
+        if end - begin > _LONGEST or len(self.new) > _LONGEST:
+            return None
+        text = span.file.counted[begin:end]
+        if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
+            return None
+        title = f"write '{self.new}'" if self.new else f"leave out '{self.old}'"
+        quote = text[0] if text and text[0] in _QUOTES else ""
+        if not self.old or self.is_whole:
+            if self.old not in (text, text.strip(quote), ""):
+                return None
+            return Fix(title, (Edit(span, _in_quotes(self.new, quote)),), self.is_safe)
+        at = begin + text.find(self.old)
+        if quote and at > begin and {quote, "\\"} & {*self.new}:
+            return None
+        return Fix(title, (Edit(span.file.between(at, at + len(self.old)), self.new),), self.is_safe)
+
+    def is_word_for(self, span: Span | None) -> bool:
+        """Whether `new` keeps its meaning in place of a name, in the quotes that the span has or without any."""
+        quote = span.file.counted[span.file.index_of(*span.start)] if span and span.start != span.end else ""
+        return not {*"'\"\\\n"} & {*self.new} if quote in _QUOTES else _PLAIN.fullmatch(self.new) is not None
+
+
+def _in_quotes(value: str, quote: str) -> str:
+    """Return a value in quotes if it is an expression that needs them, or had them."""
+    if "$(" not in value or not (quote or any(mark in value for mark in _MARKS_OF_FLOW)):
+        return value
+    other = next((one for one in (quote, '"', "'") if one and one not in value), None)
+    return f"{other}{value}{other}" if other and "\\" not in value else value
+
+
+def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:
+    """Return the fixes that can be applied together: of two that change the same text, the first."""
+    taken: dict[str, list[tuple[int, int]]] = {}
+    kept = []
+    for fix in fixes:
+        places = [(taken.setdefault(edit.span.file.name, []), *edit.range) for edit in fix.edits]
+        if not any(
+            begin <= end_of_other and begin_of_other <= end
+            for others, begin, end in places
+            for begin_of_other, end_of_other in others
+        ):
+            kept.append(fix)
+            for others, begin, end in places:
+                others.append((begin, end))
+    return kept
+
+
+def apply_edits(file: SourceFile, edits: Iterable[Edit]) -> str:
+    """Return the text of a file with its byte order mark after edits, none of which overlap."""
+    text, mark = file.counted, file.text[: len(file.text) - len(file.counted)]
+    parts, at = [mark], 0
+    for begin, end, new in sorted((*edit.range, edit.text) for edit in edits):
+        assert begin >= at, "edits do not overlap"
+        parts += (text[at:begin], new)
+        at = end
+    return "".join((*parts, text[at:]))

@@ -1,0 +1,148 @@
+"""The outline of a spec as a kinematic tree, and the parts of all specs of a workspace by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from lsprotocol import types
+
+from linkforge_compile.analysis import Settings
+from linkforge_compile.core.models.graph import child_joints
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
+from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.lsp.occurrences import declarations_in
+from linkforge_compile.lsp.workspace import Document, specs_in
+from linkforge_compile.source import SourceRef, Span
+
+MAX_DEPTH = 30
+"""How many links deep an outline is nested, as clients read it by recursion; what is deeper follows at the end."""
+
+MAX_FOUND = 500
+
+_KINDS = {
+    "link": types.SymbolKind.Object,
+    "joint": types.SymbolKind.Function,
+    "module": types.SymbolKind.Module,
+    "parameter": types.SymbolKind.Variable,
+    "variable": types.SymbolKind.Constant,
+    "data": types.SymbolKind.File,
+    "material": types.SymbolKind.Property,
+    "group": types.SymbolKind.Namespace,
+    "state": types.SymbolKind.EnumMember,
+}
+
+
+def outline(document: Document) -> list[types.DocumentSymbol]:
+    """Return the parts of a spec: its links and joints as a tree, with those of modules at their `use`, then the rest.
+
+    Of a spec with errors the parts that could be read are there, in the order of the file if there is no tree.
+    """
+    analysis = document.analysis
+    if analysis is None or analysis.spec is None:
+        return []
+    is_own = analysis.spec.file.path is not None and document.holds(analysis.spec.file.whole)
+    tree = _Outline(document, analysis.robot) if is_own and analysis.robot is not None else None
+    symbols = list(tree.roots()) if tree else []
+    for kind, entry in declarations_in(analysis.spec.tree):
+        if document.holds(entry.key.span) and not (symbols and kind in {"link", "joint"}):
+            symbols.append(_symbol(document.columns, kind, entry.name, entry.key.span, entry.value.span))
+    return symbols
+
+
+def find_symbols(
+    query: str, folders: Iterable[Path], settings: Settings, columns: Columns
+) -> list[types.WorkspaceSymbol]:
+    """Return the parts that specs in folders declare, as written there, whose names have the letters in this order."""
+    found: list[types.WorkspaceSymbol] = []
+    for path in (spec for folder in folders for spec in specs_in(folder)):
+        for kind, name, span in _declared(path, settings):
+            location = columns.location(span)
+            if location and _matches(query.lower(), name.lower()):
+                found.append(
+                    types.WorkspaceSymbol(
+                        location, name, _KINDS.get(kind, types.SymbolKind.Field), container_name=path.name
+                    )
+                )
+    return sorted(found, key=lambda one: (len(one.name), one.name))[:MAX_FOUND]
+
+
+def _declared(path: Path, settings: Settings) -> Iterator[tuple[str, str, Span]]:
+    """Yield the kind, name and place of each part that a spec declares, without what it uses and computes."""
+    try:
+        spec = settings.loader(path).open(path, Diagnostics())
+    except BeyondLimitError:
+        return
+    for kind, entry in declarations_in(spec.tree) if spec else ():
+        yield kind, entry.name, entry.key.span
+
+
+def _matches(query: str, name: str) -> bool:
+    """Whether the letters of the query are in the name in their order, as editors match."""
+    letters = iter(name)
+    return all(letter in letters for letter in query)
+
+
+def _symbol(columns: Columns, kind: str, name: str, key: Span, value: Span) -> types.DocumentSymbol:
+    """Return the symbol of an entry, which reaches from its key to the end of its value if both are in one file."""
+    is_after = key.file is value.file and key.end <= value.end
+    whole = key._replace(end_line=value.end_line, end_column=value.end_column) if is_after else key
+    return types.DocumentSymbol(
+        name=name or "''",
+        kind=_KINDS.get(kind, types.SymbolKind.Field),
+        range=columns.range(whole),
+        selection_range=columns.range(key),
+        detail=kind,
+        children=[],
+    )
+
+
+class _Outline:
+    """The tree of links and joints of a robot, each at its place in a document."""
+
+    def __init__(self, document: Document, robot: Robot) -> None:
+        self._document = document
+        self._links = {link.name: link for link in robot.links}
+        self._below = child_joints(robot.joints)
+        self._children = {joint.child for joint in robot.joints}
+        self._seen: set[str] = set()
+
+    def roots(self) -> Iterator[types.DocumentSymbol]:
+        """Yield the links that are no child with what is below them, then those that no link leads to."""
+        for name in sorted(self._links, key=self._children.__contains__):
+            yield from self._link(name, 0)
+
+    def _link(self, name: str, depth: int) -> Iterator[types.DocumentSymbol]:
+        link = self._links.get(name)
+        if link is None or name in self._seen:
+            return
+        self._seen.add(name)
+        inside = [one for joint in self._below.get(name, ()) for one in self._joint(joint, depth)]
+        yield from _with_children(self._at("link", name, link.source), inside)
+
+    def _joint(self, joint: Joint, depth: int) -> Iterator[types.DocumentSymbol]:
+        inside = list(self._link(joint.child, depth + 1)) if depth < MAX_DEPTH else []
+        yield from _with_children(self._at(f"{joint.type} joint", joint.name, joint.source), inside)
+
+    def _at(self, kind: str, name: str, source: SourceRef | None) -> types.DocumentSymbol | None:
+        """Return the symbol of a part: where this document writes it, or uses the module that does."""
+        places = (source.span, *source.trail) if source else ()
+        place = next((one for one in places if self._document.holds(one)), None)
+        if source is None or place is None:
+            return None
+        value = source.node.span if place is source.span else place
+        symbol = _symbol(self._document.columns, kind.rpartition(" ")[2], name, place, value)
+        symbol.detail = kind
+        return symbol
+
+
+def _with_children(
+    symbol: types.DocumentSymbol | None, children: list[types.DocumentSymbol]
+) -> Iterable[types.DocumentSymbol]:
+    """Return a symbol with its children; without a place of its own, they take its place."""
+    if symbol is None:
+        return children
+    symbol.children = children
+    return [symbol]

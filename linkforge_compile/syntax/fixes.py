@@ -1,0 +1,96 @@
+"""Fixes of a text that is not YAML as the language reads it."""
+
+from __future__ import annotations
+
+import re
+
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.source import SourceFile, Span
+
+_INDENTATION = re.compile(r"[ \t]*\t[ \t]*(?=\S)")
+_TABS = re.compile(r"\t+")
+_LIKE_SPACES = re.compile(r"(?:[ \t]*[\u00a0\u2000-\u200b\u202f\u3000])+[ \t]*")
+
+_STEP, _TAB_STOP = 2, 4
+"""Spaces of a level of indentation, and columns between tab stops where tabs are mixed with spaces."""
+
+_IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
+_LONGEST_EXPRESSION = 2_000
+_REST_OF_ITEM = re.compile(r"([^\s,\[\]{}#]*)[ \t]*(?=[,\]}\r\n]|$)")
+
+
+def space_after_colon(span: Span, text: str) -> Diagnostic:
+    """Return the error for a key and its value without a space between them, such as `mass:3`."""
+    return codes.SPACE_AFTER_COLON.at(span, text=text, ours=text.replace(":", ": ", 1))
+
+
+def space_after_dash(span: Span, text: str) -> Diagnostic:
+    """Return the error for a dash and its item without a space between them, such as `-base`."""
+    return codes.SPACE_AFTER_DASH.at(span, text=text, ours=text.replace("-", "- ", 1))
+
+
+def indent_with_spaces(file: SourceFile) -> Fix | None:
+    """Return the fix that writes spaces for the tabs that indent lines; safe if nothing else indents any line."""
+    indentations = [(line, found[0]) for line, found in _indented(file, _INDENTATION)]
+    is_pure = all(_TABS.fullmatch(found) for _, found in indentations) and not any(
+        line.startswith(" ") and line.strip() for line in file.lines
+    )
+    edits = [
+        Edit(Span(file, line, 1, line, len(found) + 1), _spaces(found, is_pure=is_pure)) for line, found in indentations
+    ]
+    return Fix("indent with spaces", tuple(edits), is_safe=is_pure) if edits else None
+
+
+def _spaces(indentation: str, *, is_pure: bool) -> str:
+    return " " * (_STEP * len(indentation) if is_pure else len(indentation.expandtabs(_TAB_STOP)))
+
+
+def replace_like_spaces(file: SourceFile) -> Fix | None:
+    """Return the fix that writes spaces for what looks like spaces in the indentation of lines."""
+    edits = [
+        Edit(Span(file, line, 1, line, found.end() + 1), " " * found.end())
+        for line, found in _indented(file, _LIKE_SPACES)
+        if "\t" not in found[0]
+    ]
+    return Fix("indent with spaces", tuple(edits), is_safe=True) if edits else None
+
+
+def _indented(file: SourceFile, pattern: re.Pattern[str]) -> list[tuple[int, re.Match[str]]]:
+    """Return the numbers of the lines that begin with a pattern, and what it matches."""
+    found = ((number, pattern.match(line)) for number, line in enumerate(file.lines, start=1))
+    return [(number, match) for number, match in found if match]
+
+
+def indent_line(span: Span, spaces: int) -> Fix:
+    """Return the fix that begins a line with spaces; `span` begins with its first other character."""
+    place = Span(span.file, span.line, 1, span.line, span.column)
+    return Fix("indent this line further", (Edit(place, " " * spaces),), is_safe=True)
+
+
+def closing_index(text: str, start: int) -> int | None:
+    """Return the index after the `)` of the `$(` before `start`; None if there is none in what may be an expression."""
+    closing = [")"]
+    for token in _IN_EXPRESSION.finditer(text, start, start + _LONGEST_EXPRESSION):
+        if token[0] in ("(", "["):
+            closing.append(")" if token[0] == "(" else "]")
+        elif token[0][0] not in "'\"" and token[0] != closing.pop():
+            return None
+        if not closing:
+            return token.end()
+    return None
+
+
+def put_in_quotes(file: SourceFile, begin: int, closing: int) -> Fix | None:
+    """Return the fix for the item of a flow list or map that begins at an index and whose expression ends at another.
+
+    None if more text than a word follows, or if both kinds of quotes are in it.
+    """
+    rest = _REST_OF_ITEM.match(file.counted, closing)
+    written = file.counted[begin : rest.end(1)] if rest else ""
+    quote = next((quote for quote in ('"', "'") if quote not in written and "\\" not in written), None)
+    if not rest or quote is None:
+        return None
+    new = f"{quote}{written}{quote}"
+    return Fix(f"write '{new}'", (Edit(file.between(begin, rest.end(1)), new),), is_safe=True)

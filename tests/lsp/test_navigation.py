@@ -1,0 +1,117 @@
+"""From a name to the place that declares it, and to all places that use it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from lsprotocol import types
+
+from tests.lsp.editor import Editor, split_at_cursor
+
+ARM = """\
+linkforge: 1
+name: arm
+links:
+  base: {}
+  tip: {}
+joints:
+  elbow: {type: revolute, parent: base, child: tip, axis: z, limits: {effort: 1, velocity: 1}}
+semantic:
+  groups: {all: {joints: [elbow]}}
+  group_states: {all: {home: {elbow: 0}}}
+"""
+CELL = """\
+linkforge: 1
+name: cell
+links:
+  world: {}
+modules:
+  left: {use: arm.robot.yaml, parent: world}
+  right: {use: arm.robot.yaml, parent: world, joint: neck}
+semantic:
+  disabled_collisions: {left_tip: {right_tip: Never}}
+  group_states: {left_all: {up: {left_elbow: 1}}}
+"""
+
+
+@pytest.fixture
+def robot(editor: Editor, tmp_path: Path) -> Path:
+    """A cell of two arms, open in the editor with its module."""
+    for name, text in (("arm", ARM), ("cell", CELL)):
+        (tmp_path / f"{name}.robot.yaml").write_text(text)
+        editor.open(tmp_path / f"{name}.robot.yaml")
+    return tmp_path
+
+
+def shown(locations: object) -> list[str]:
+    """Return locations as `FILE:LINE:WORD`."""
+    found = []
+    for one in locations if isinstance(locations, Sequence) else []:
+        assert isinstance(one, types.Location)
+        path = Path(one.uri.removeprefix("file://"))
+        line = path.read_text().split("\n")[one.range.start.line]
+        word = line[one.range.start.character : one.range.end.character]
+        found.append(f"{path.name.partition('.')[0]}:{one.range.start.line + 1}:{word}")
+    return found
+
+
+def definition(editor: Editor, path: Path, marked: str) -> list[str]:
+    text, position = split_at_cursor(marked)
+    document = editor.open(path, text)
+    params = types.DefinitionParams(document, position)
+    return shown(editor.ask(lambda client: client.text_document_definition_async(params)))
+
+
+def references(editor: Editor, path: Path, marked: str) -> list[str]:
+    text, position = split_at_cursor(marked)
+    document = editor.open(path, text)
+    params = types.ReferenceParams(types.ReferenceContext(include_declaration=True), document, position)
+    return shown(editor.ask(lambda client: client.text_document_references_async(params)))
+
+
+@pytest.mark.parametrize(
+    ("file", "marks", "declared"),
+    [
+        ("arm", ("parent: base", "parent: ba¦se"), ["arm:4:base"]),
+        ("arm", ("joints: [elbow]", "joints: [¦elbow]"), ["arm:7:elbow"]),
+        ("arm", ("{all: {home", "{all¦: {home"), ["arm:9:all"]),
+        ("arm", ("{home: {elbow", "{home: {elb¦ow"), ["arm:7:elbow"]),
+        ("arm", ("tip: {}", "t¦ip: {}"), ["arm:5:tip"]),
+        ("cell", ("left_tip", "left¦_tip"), ["arm:5:tip"]),
+        ("cell", ("left_all", "left_a¦ll"), ["arm:9:all"]),
+        ("cell", ("left_elbow", "left_elbow¦"), ["arm:7:elbow"]),
+        ("cell", ("parent: world}", "parent: w¦orld}"), ["cell:4:world"]),
+        ("cell", ("name: cell", "na¦me: cell"), []),
+    ],
+)
+def test_the_declaration_of_a_name(editor: Editor, robot: Path, file: str, marks: tuple[str, str], declared: list[str]):
+    marked = {"arm": ARM, "cell": CELL}[file].replace(*marks, 1)
+    assert definition(editor, robot / f"{file}.robot.yaml", marked) == declared
+
+
+def test_the_uses_of_a_modules_link_are_those_of_each_of_its_uses(editor: Editor, robot: Path):
+    found = references(editor, robot / "arm.robot.yaml", ARM.replace("  tip: {}", "  t¦ip: {}"))
+    assert sorted(found) == ["arm:5:tip", "arm:7:tip", "cell:9:left_tip", "cell:9:right_tip"]
+
+
+def test_uses_are_found_in_specs_that_are_not_open(editor: Editor, robot: Path):
+    editor.close(robot / "cell.robot.yaml")
+    found = references(editor, robot / "arm.robot.yaml", ARM.replace("child: tip", "child: ti¦p"))
+    assert sorted(found) == ["arm:5:tip", "arm:7:tip", "cell:9:left_tip", "cell:9:right_tip"]
+
+
+def test_a_name_with_a_prefix_names_one_use_only(editor: Editor, robot: Path):
+    found = references(editor, robot / "cell.robot.yaml", CELL.replace("left_tip", "left_¦tip"))
+    assert sorted(found) == ["arm:5:tip", "arm:7:tip", "cell:9:left_tip"]
+
+
+def test_highlights_are_those_of_the_file(editor: Editor, robot: Path):
+    text, position = split_at_cursor(ARM.replace("joints: [elbow]", "joints: [el¦bow]"))
+    params = types.DocumentHighlightParams(editor.open(robot / "arm.robot.yaml", text), position)
+    found = editor.ask(lambda client: client.text_document_document_highlight_async(params)) or []
+    assert [one.range.start.line + 1 for one in found] == [7, 9, 10]
+
+
+def test_a_position_beyond_the_text_names_nothing(editor: Editor, robot: Path):
+    params = types.DefinitionParams(editor.open(robot / "arm.robot.yaml"), types.Position(10_000, 10_000))
+    assert editor.ask(lambda client: client.text_document_definition_async(params)) == []

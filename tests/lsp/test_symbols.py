@@ -1,0 +1,107 @@
+"""The outline of a spec, and the search for parts in a workspace."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from lsprotocol import types
+
+from tests.lsp.editor import Editor
+from tests.lsp.test_navigation import ARM, CELL
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def outline(editor: Editor, path: Path, text: str | None = None) -> list[str]:
+    """Return the outline as lines, each part with its detail and the line of its name."""
+    params = types.DocumentSymbolParams(editor.open(path, text))
+    found = editor.ask(lambda client: client.text_document_document_symbol_async(params)) or []
+    return [line for one in found for line in lines_of(one, "")]
+
+
+def lines_of(symbol: object, indent: str) -> list[str]:
+    assert isinstance(symbol, types.DocumentSymbol)
+    selection, whole = symbol.selection_range, symbol.range
+    assert whole.start <= selection.start <= selection.end <= whole.end
+    own = f"{indent}{symbol.name} ({symbol.detail}) {selection.start.line + 1}"
+    return [own, *(line for child in symbol.children or () for line in lines_of(child, f"{indent}  "))]
+
+
+def test_links_and_joints_are_a_tree_and_the_rest_follows(editor: Editor, tmp_path: Path):
+    assert outline(editor, tmp_path / "arm.robot.yaml", "variables: {v: 1}\n" + ARM) == [
+        "base (link) 5",
+        "  elbow (revolute joint) 8",
+        "    tip (link) 6",
+        "v (variable) 1",
+        "all (group) 10",
+        "home (state) 11",
+    ]
+
+
+def test_the_parts_of_modules_have_their_final_names_at_the_use(editor: Editor, tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    assert outline(editor, tmp_path / "cell.robot.yaml", CELL) == [
+        "world (link) 4",
+        "  left_joint (fixed joint) 6",
+        "    left_base (link) 6",
+        "      left_elbow (revolute joint) 6",
+        "        left_tip (link) 6",
+        "  neck (fixed joint) 7",
+        "    right_base (link) 7",
+        "      right_elbow (revolute joint) 7",
+        "        right_tip (link) 7",
+        "left (module) 6",
+        "right (module) 7",
+        "up (state) 10",
+    ]
+
+
+def test_repeated_links_are_in_the_outline_once_each(editor: Editor, tmp_path: Path):
+    repeated = ARM.replace("  tip: {}\n", "  tip: {}\n  spare_$(i): {for: {i: [1, 2]}}\n")
+    assert [line for line in outline(editor, tmp_path / "arm.robot.yaml", repeated) if "spare" in line] == [
+        "spare_1 (link) 6",
+        "spare_2 (link) 6",
+    ]
+
+
+def test_links_without_a_joint_are_in_the_outline(editor: Editor, tmp_path: Path):
+    cycle = ARM.replace("parent: base", "parent: tip")
+    assert outline(editor, tmp_path / "arm.robot.yaml", cycle)[:2] == ["base (link) 4", "tip (link) 5"]
+
+
+def test_a_long_chain_has_an_outline(editor: Editor, tmp_path: Path):
+    links = "".join(f"  l{number}: {{}}\n" for number in range(600))
+    joints = "".join(f"  j{n}: {{type: fixed, parent: l{n}, child: l{n + 1}}}\n" for n in range(599))
+    found = outline(editor, tmp_path / "chain.robot.yaml", f"linkforge: 1\nname: c\nlinks:\n{links}joints:\n{joints}")
+    assert len(found) == 600 + 599
+
+
+def test_a_spec_with_errors_has_an_outline_of_what_was_read(editor: Editor, tmp_path: Path):
+    found = outline(editor, tmp_path / "arm.robot.yaml", ARM.replace("child: tip", "child: top"))
+    assert "base (link) 4" in found
+    assert "tip (link) 5" in found
+
+
+def test_a_text_that_does_not_parse_has_no_outline(editor: Editor, tmp_path: Path):
+    assert outline(editor, tmp_path / "arm.robot.yaml", ARM + "links: [") == []
+
+
+def search(editor: Editor, query: str) -> list[str]:
+    params = types.WorkspaceSymbolParams(query)
+    found = editor.ask(lambda client: client.workspace_symbol_async(params))
+    assert isinstance(found, Sequence)
+    return [f"{one.container_name}:{one.name}" for one in found]
+
+
+def test_parts_of_all_specs_of_the_workspace_are_found_by_their_letters(editor: Editor, tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    (tmp_path / "cell.robot.yaml").write_text(CELL)
+    assert search(editor, "elb") == ["arm.robot.yaml:elbow"]
+    assert search(editor, "wd") == ["cell.robot.yaml:world"]
+    assert search(editor, "nothing") == []
+    editor.open(tmp_path / "arm.robot.yaml", ARM.replace("elbow", "wrist"))
+    assert search(editor, "wri") == ["arm.robot.yaml:wrist"]
+
+
+def test_every_example_has_an_outline_with_all_its_links(editor: Editor):
+    for path in sorted(EXAMPLES.rglob("*.robot.yaml")):
+        assert outline(editor, path), path
