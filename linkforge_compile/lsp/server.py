@@ -113,12 +113,9 @@ def make_server() -> SpecServer:
     server = SpecServer()
     _add_synchronization(server)
     _add_structure(server)
-<<<<<<< HEAD
     _add_completion(server)
-=======
     _add_navigation(server)
     _add_rename(server)
->>>>>>> main
     return server
 
 
