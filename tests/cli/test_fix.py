@@ -160,6 +160,15 @@ def test_values_of_another_format_are_written_as_ours(tmp_path: Path):
     )
 
 
+def test_a_color_of_urdf_is_written_as_ours(tmp_path: Path):
+    """Its value is wrong only once its key is right."""
+    paint = "materials: {red: {rgba: '1 0 0 1'}}\n"
+    spec = write(tmp_path / "arm.robot.yaml", PENDULUM + paint)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines()[0] == "fixed 2 problems in arm.robot.yaml"
+    assert spec.read_text() == PENDULUM + "materials: {red: {color: [1, 0, 0, 1]}}\n"
+
+
 def test_the_difference_is_shown_and_nothing_is_written(tmp_path: Path):
     text = PENDULUM.replace("continuous", "Continuous")
     spec = write(tmp_path / "arm.robot.yaml", text)
