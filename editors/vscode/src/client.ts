@@ -51,16 +51,17 @@ export class Compiler {
       errorHandler: {
         error: (...parameters) => usual.error(...parameters),
         // One that ends before it has started would end again.
-        closed: () => (this.client ? usual.closed() : { action: CloseAction.DoNotRestart, handled: true }),
+        closed: () => (client.hasStarted ? usual.closed() : { action: CloseAction.DoNotRestart, handled: true }),
       },
     };
-    const client = new LanguageClient("linkforge", "LinkForge", () => server.start(), options);
+    const client = new SpecClient("linkforge", "LinkForge", () => server.start(), options);
     const usual = client.createDefaultErrorHandler();
     try {
       await client.start();
+      client.hasStarted = true;
       this.client = client;
     } catch (error) {
-      void this.report((await server.failure()) ?? `${command.join(" ")}: ${String(error)}`);
+      void this.report(await server.failure(error));
     }
   }
 
@@ -81,6 +82,15 @@ export class Compiler {
     } else if (choice === retry) {
       await this.restart();
     }
+  }
+}
+
+/** Shows no error before the server has started, because `Compiler` reports why it does not. */
+class SpecClient extends LanguageClient {
+  hasStarted = false;
+
+  override error(message: string, data?: unknown, showNotification: boolean | "force" = true): void {
+    super.error(message, data, this.hasStarted && showNotification);
   }
 }
 
