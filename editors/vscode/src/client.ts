@@ -40,6 +40,7 @@ export class Compiler {
       void this.report(`LinkForge's compiler is not installed: ${INSTALL}`);
       return;
     }
+    this.output.info(`starting ${command.join(" ")} lsp`);
     const server = new ServerProcess(command, vscode.workspace.workspaceFolders?.[0]?.uri.fsPath);
     const options: LanguageClientOptions = {
       documentSelector: [{ scheme: "file", language: "linkforge" }],

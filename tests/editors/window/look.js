@@ -15,8 +15,7 @@ async function run(page, command) {
   await page.keyboard.press("F1");
   await page.waitForSelector(".quick-input-widget:not([style*='display: none'])");
   await page.keyboard.type(command);
-  await page.waitForTimeout(1000);
-  await page.keyboard.press("Enter");
+  await page.click(`.quick-input-list .monaco-list-row[aria-label^="${command}"]`);
 }
 
 async function open(page) {
