@@ -59,10 +59,10 @@ def npm(folder: Path, *arguments: str) -> None:
 def code_server(modules: Path, extension: ZipFile, folder: Path, linkforge: Sequence[str]) -> Iterator[str]:
     """Run VS Code with the extension, which starts a command, and yield its address."""
     assert extension.filename
-    (folder / "user" / "User").mkdir(parents=True)
-    (folder / "user" / "User" / "settings.json").write_text(
-        json.dumps({**SETTINGS, "linkforge.command": linkforge}), "utf-8"
-    )
+    # VS Code ignores a command in the settings of a user whose files are on another machine.
+    for name, settings in ("User", SETTINGS), ("Machine", {"linkforge.command": linkforge}):
+        (folder / "user" / name).mkdir(parents=True)
+        (folder / "user" / name / "settings.json").write_text(json.dumps(settings), "utf-8")
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"127.0.0.1:{free.getsockname()[1]}"

@@ -44,7 +44,7 @@ export class Compiler {
     const server = new ServerProcess(command, vscode.workspace.workspaceFolders?.[0]?.uri.fsPath);
     const options: LanguageClientOptions = {
       documentSelector: [{ scheme: "file", language: "linkforge" }],
-      synchronize: { fileEvents: this.files },
+      synchronize: { fileEvents: this.files, configurationSection: "linkforge" },
       diagnosticCollectionName: "linkforge", // the owner of the problem matcher: no problem is listed twice
       outputChannel: this.output,
       initializationOptions: serverSettings(),
@@ -101,6 +101,6 @@ function serverSettings(): object {
   const packages = Object.entries(settings.get<Record<string, string>>("packages", {}));
   return {
     packages: Object.fromEntries(packages.map(([name, path]) => [name, expandPath(path)])),
-    inlayHints: settings.get<boolean>("inlayHints", false),
+    inlayHints: settings.get<object>("inlayHints", {}),
   };
 }
