@@ -117,10 +117,10 @@ def _in_entry(module: Instance, entry: YamlMap, prefix: str) -> Iterator[Occurre
     """Yield the occurrences in the entry of a module: its own name, that of its joint, and its parent."""
     walker = _Walker(prefix)
     if module.entry is not None and isinstance(module.entry.key, YamlScalar):
-        yield walker.occurrence("module", module.entry.key, is_declaration=True)
+        yield Occurrence("module", prefix + module.name, module.name, module.entry.key.span, is_declaration=True)
     yield from walker.references(entry, definitions()["module"])
     if module.entry is not None and isinstance(module.entry.key, YamlScalar):
-        joint = walker.named_joint(module.entry.key, entry)
+        joint = walker.named_joint(module.name, module.entry.key.span, entry)
         if entry.get("parent") or not joint.suffix:
             yield joint
 
@@ -138,14 +138,14 @@ class _Walker:
         written, suffix = (text, "_joint") if is_made else (node.text, "")
         return Occurrence(kind, self._prefix + node.text, written, node.span, is_declaration, suffix)
 
-    def named_joint(self, key: YamlScalar, entry: YamlMap) -> Occurrence:
-        """Return the joint of a frame or module, which the key names unless `joint` does."""
-        name = joint_name_of(key.text, entry)
+    def named_joint(self, key: str, place: Span, entry: YamlMap) -> Occurrence:
+        """Return the joint of a frame or module, which its key, computed, names unless `joint` does."""
+        name = joint_name_of(key, entry)
         joint = entry.get("joint")
         joint = joint.get("name") if isinstance(joint, YamlMap) else joint
         if isinstance(joint, YamlScalar) and joint.value is not None:
             return self.occurrence("joint", joint, is_declaration=True)
-        return Occurrence("joint", self._prefix + name, key.text, key.span, True, name.removeprefix(key.text))
+        return Occurrence("joint", self._prefix + name, key, place, True, name.removeprefix(key))
 
     def declarations(self, tree: YamlMap) -> Iterator[Occurrence]:
         """Yield the names that the sections of a file declare."""
@@ -158,7 +158,7 @@ class _Walker:
                     yield self.occurrence("joint", entry.key, is_declaration=True)
                 if path == ("frames",):
                     fields = entry.value if isinstance(entry.value, YamlMap) else YamlMap({}, entry.value.span)
-                    yield self.named_joint(entry.key, fields)
+                    yield self.named_joint(entry.key.text, entry.key.span, fields)
         for group in _section(tree, _STATES):
             for state in group.value if isinstance(group.value, YamlMap) else ():
                 yield self._state(group.name, state.key)._replace(is_declaration=True)
