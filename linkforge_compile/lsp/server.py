@@ -16,6 +16,7 @@ from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
 from linkforge_compile.analysis import analyse_path
+from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
@@ -116,6 +117,7 @@ def make_server() -> SpecServer:
     _add_completion(server)
     _add_navigation(server)
     _add_rename(server)
+    _add_actions(server)
     return server
 
 
@@ -236,3 +238,10 @@ def _refusals() -> Iterator[None]:
         yield
     except RefusedError as error:
         raise JsonRpcException(str(error), types.LSPErrorCodes.RequestFailed.value) from None
+
+
+def _add_actions(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS))
+    async def _act(params: types.CodeActionParams) -> list[types.CodeAction]:
+        document = await server.analysed(params.text_document.uri)
+        return code_actions(document, params.range, params.context) if document else []
