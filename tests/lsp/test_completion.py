@@ -162,3 +162,31 @@ def test_a_position_beyond_the_text_and_a_closed_document_end_nothing(editor: Ed
     assert isinstance(editor.ask(lambda client: client.text_document_completion_async(beyond)), list)
     editor.close(file)
     assert editor.ask(lambda client: client.text_document_completion_async(beyond)) == []
+
+
+def test_a_text_that_was_never_readable_has_completions(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    text = "linkforge: 1\nname: [arm\nparameters: {reach: 1 m}\nlinks: {base: {}}\nframes: {tool: {parent: base}}\n"
+    assert labels_at(editor, file, text + "joints:\n  j: {parent: ¦}\nmaterials: ]\n") == ["base", "tool"]
+    assert "reach" in labels_at(editor, file, text + "joints:\n  j: {origin: [0, 0, $(¦)]}\nmaterials: ]\n")
+
+
+def test_a_part_has_the_names_and_parameters_of_the_spec_that_includes_it(editor: Editor, tmp_path: Path):
+    part, whole = tmp_path / "joints.robot.yaml", tmp_path / "arm.robot.yaml"
+    whole.write_text(
+        "linkforge: 1\nname: arm\ninclude: [joints.robot.yaml]\nparameters: {reach: 1 m}\nlinks: {base: {}}\n"
+    )
+    text = "linkforge: 1\nvariables: {half: $(reach / 2)}\njoints: {j: {type: fixed, parent: ¦}}\n"
+    editor.open(whole)
+    editor.open(part, text.replace("¦", "base"))
+    editor.diagnostics(part)
+    assert labels_at(editor, part, text) == ["base"]
+    assert {"reach", "half"} <= set(labels_at(editor, part, text.replace("¦", "$(¦)")))
+
+
+def test_items_of_a_block_list_are_names_that_it_does_not_have(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    text = "linkforge: 1\nname: arm\nlinks: {base: {}, tip: {}}\nsemantic:\n  groups:\n    arm:\n"
+    text += "      links:\n      - base\n"
+    assert labels_at(editor, file, text + "      - ¦\n")[:1] == ["tip"]
+    assert "base" not in labels_at(editor, file, text + "      - ¦\n")
