@@ -126,3 +126,15 @@ def test_a_closed_file_loses_its_diagnostics(editor: Editor, tmp_path: Path):
     assert editor.diagnostics(file)
     editor.close(file)
     assert editor.published(file, lambda found: not found) == []
+
+
+def test_each_place_of_a_fault_that_many_parts_have_is_marked(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    axis = "axis: z, limits: {effort: 1, velocity: 1, lower: 0, upper: 1}, mimic: {joint: knee}"
+    text = ARM.replace("  tip: {}\n", "  tip: {}\n  foot: {}\n  f0: {}\n  f1: {}\n")
+    text += "  knee: {type: fixed, parent: tip, child: foot}\n"
+    text += "".join(f"  m{n}: {{type: revolute, parent: tip, child: f{n}, {axis}}}\n" for n in range(2))
+    editor.open(file, text)
+    file.write_text(text)
+    report = check_file(file).diagnostics
+    assert len(editor.diagnostics(file)) == sum(len(one.members) or 1 for one in report) > len(report)
