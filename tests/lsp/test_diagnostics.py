@@ -110,6 +110,19 @@ def test_a_part_without_a_name_is_checked_with_the_spec_that_includes_it(editor:
     assert "LF4102" in codes(editor.published(whole, bool))
 
 
+def test_a_part_that_is_included_no_more_is_a_spec_without_a_name(editor: Editor, tmp_path: Path):
+    part, whole = tmp_path / "links.robot.yaml", tmp_path / "arm.robot.yaml"
+    part.write_text("linkforge: 1\nlinks: {tip: {}}\n")
+    including = ARM.replace("  tip: {}\n", "").replace("links:", "include: [links.robot.yaml]\nlinks:")
+    whole.write_text(including)
+    editor.open(part)
+    assert editor.diagnostics(part) == []
+    editor.open(whole, ARM)
+    assert codes(editor.published(part, bool)) == ["LF2003"]
+    editor.open(whole, including)
+    assert editor.published(part, lambda found: not found) == []
+
+
 def test_a_file_that_changes_on_disk_is_read_again(editor: Editor, tmp_path: Path):
     arm, cell = tmp_path / "arm.robot.yaml", tmp_path / "cell.robot.yaml"
     editor.open(cell, CELL)
