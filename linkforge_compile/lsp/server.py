@@ -20,6 +20,7 @@ from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.formatting import format_edits
+from linkforge_compile.lsp.hover import hover
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.symbols import find_symbols, outline
@@ -114,6 +115,7 @@ def make_server() -> SpecServer:
     _add_structure(server)
     _add_navigation(server)
     _add_rename(server)
+    _add_hover(server)
     return server
 
 
@@ -217,6 +219,14 @@ def _add_rename(server: SpecServer) -> None:
         at, settings = document.place(params.position), server.specs.settings()
         with _refusals():
             return await server.in_thread(partial(rename, document, at, params.new_name, settings))
+
+
+def _add_hover(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    async def _hover(params: types.HoverParams) -> types.Hover | None:
+        document = await server.analysed(params.text_document.uri)
+        settings = server.specs.settings()
+        return await server.in_thread(partial(hover, document, params.position, settings)) if document else None
 
 
 @contextmanager
