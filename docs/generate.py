@@ -18,7 +18,7 @@ from linkforge_compile.diagnostics.render_text import MOST_SHOWN
 from linkforge_compile.diagnostics.sink import MAX_COUNTED, MAX_KEPT, MAX_REPORTED
 from linkforge_compile.expand import parameters
 from linkforge_compile.expand.expand_uses import MAX_DEPTH
-from linkforge_compile.expressions import operators, parse
+from linkforge_compile.expressions import operators, parse, refused_syntax
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.limits import MAX_FILE_BYTES, Limit
 from linkforge_compile.load import spec_tree
@@ -234,7 +234,7 @@ def _bounds() -> str:
         "files included from included files": spec_tree.MAX_DEPTH,
         "included files in all": spec_tree.MAX_INCLUDES,
         "characters of one expression": parse.MAX_LENGTH,
-        "depth of one expression": parse.MAX_DEPTH,
+        "depth of one expression": refused_syntax.MAX_DEPTH,
         "bits of a whole number": operators.MAX_INTEGER_BITS,
         "characters of a computed text": operators.MAX_TEXT,
         "characters of a `pattern`, and of the text it is held against": (

@@ -78,13 +78,18 @@ class Settings(NamedTuple):
     buffers: Mapping[str, str] = MappingProxyType({})
 
     @property
+    def packages_by_name(self) -> dict[str, Path]:
+        """The folders of the packages that the user names."""
+        return {name: Path(place) for name, place in (self.packages or {}).items()}
+
+    @property
     def has_urdf(self) -> bool:
         """Whether a URDF is among the outputs; ValueError for an unknown format."""
         return any(one.has_urdf for one in formats_or_default(self.formats))
 
     def loader(self, place: Path | None) -> Loader:
         """Return the loader of one compile of a file or of a text in a folder; None for a text without a folder."""
-        packages = {name: Path(place) for name, place in (self.packages or {}).items()}
+        packages = self.packages_by_name
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
         return Loader(packages, roots, Budget(within=self.whole), self.buffers)
 

@@ -121,6 +121,12 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
     return {use: listing for use, listing in listed.items() if listing}
 
 
+def list_use(spec: SpecFile, use: YamlScalar, loader: Loader) -> Listing | None:
+    """List what one spec or xacro that a file uses declares; None as for `list_used`."""
+    scope = _scope_without_arguments(spec, loader, Diagnostics())
+    return _list_module(scope.site(use.text, use.span), loader, Diagnostics())
+
+
 def _list_module(site: PathSite, loader: Loader, sink: Diagnostics) -> Listing | None:
     """List what the spec or xacro at a site declares; None for any other file, and after a reported error."""
     lowered = site.text.lower()

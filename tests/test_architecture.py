@@ -53,7 +53,7 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
         "analysis source diagnostics syntax formatter schema expressions units load expand listing core export_spec "
-        "editor roots resources formats lower _version"
+        "editor roots paths resources formats lower _version"
     ),
     "cli": (
         "banner source diagnostics limits roots paths core checks schema load expand listing analysis pipeline "

@@ -8,8 +8,10 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
-from linkforge_compile.cli.reports import errors_of, print_status
+from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.specs import count
+from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, XACRO_EXPRESSION
 from linkforge_compile.diagnostics.fix import Edit, Fix, apply_edits, without_overlaps
 from linkforge_compile.diagnostics.grouping import ungrouped
 from linkforge_compile.roots import identity, top_of
@@ -17,13 +19,11 @@ from linkforge_compile.roots import identity, top_of
 if TYPE_CHECKING:
     import argparse
 
-    from linkforge_compile.diagnostics import Diagnostic
-
 _MOST_CHECKS = 100
 """How often the specs are checked at most; each fix of a syntax error may uncover the next one."""
 
-_SYNTAX = "LF10"
-"""How the codes of errors begin that hide others: what cannot be read is not checked."""
+_SYNTAX, _YAML = "LF10", "LF1"
+"""How the codes of errors begin that hide all others in a file, and of all errors of YAML, such as a repeated key."""
 
 
 class Report(Protocol):
@@ -61,7 +61,7 @@ def fix_files(
     """Apply safe fixes until none is left, write the files, and return the report of what remains.
 
     `check` reports on the specs with texts in place of files, by real path. Only files of the packages or repositories
-    of the specs are changed. A fix that brings a new error is not applied.
+    of the specs are changed. A fix that brings an error is not applied.
     """
     tops = {Path(identity(top_of(Path(spec)))) for spec in specs}
     texts: dict[str, str] = {}
@@ -130,34 +130,45 @@ def _edited(chosen: Iterable[_Candidate]) -> dict[Path, str]:
 def _new_fault(chosen: Collection[_Candidate], before: Report, after: Report) -> str:
     """Return why fixes cannot be applied: a diagnostic that is still there, or an error that they bring; "" if neither.
 
-    An error that was hidden by one of the syntax is not new, unless it is of the syntax again, in what was edited.
+    They bring an error if it is at what they write, or if the text is no longer YAML. Others were hidden before: what
+    cannot be read is not checked.
     """
     was, now = (Counter(map(_key, ungrouped(report.diagnostics))) for report in (before, after))
-    if any(now[key] >= was[key] for key in (_key(one.diagnostic) for one in chosen)):
-        return "it is reported again"
+    corrected = {_key(one.diagnostic) for one in chosen}
     has_hidden = any(one.diagnostic.code.id.startswith(_SYNTAX) for one in chosen)
-    for error in errors_of(after.diagnostics):
-        is_new = now[_key(error)] > was[_key(error)]
-        if is_new and not (has_hidden and not (error.code.id.startswith(_SYNTAX) and _is_in_edit(error, chosen))):
+    written = _places_written(chosen)
+    for error in ungrouped(after.diagnostics):
+        if error.span is None:
+            continue
+        at = error.span.file.index_of(*error.span.start)
+        is_in_edit = any(begin <= at <= end for begin, end in written.get(error.span.file.name, ()))
+        if is_in_edit and _key(error) in corrected:
+            return "it is reported again"
+        if error.severity is not Severity.ERROR or now[_key(error)] <= was[_key(error)]:
+            continue
+        is_yaml = error.code.id.startswith(_YAML) and error.code not in (XACRO_EXPRESSION, SPACE_AFTER_COLON)
+        if is_in_edit or (is_yaml and not has_hidden and error.span.file.name in written):
             return f"it would bring the error '{error.message}'"
     return ""
+
+
+def _places_written(chosen: Iterable[_Candidate]) -> dict[str, list[tuple[int, int]]]:
+    """Return the indexes between which the edited texts have what fixes write, by the name of the file."""
+    ranges: dict[str, list[tuple[int, int, int]]] = {}
+    for edit in (edit for one in chosen for edit in one.fix.edits):
+        ranges.setdefault(edit.span.file.name, []).append((*edit.range, len(edit.text)))
+    written: dict[str, list[tuple[int, int]]] = {}
+    for name, edits in ranges.items():
+        moved = 0
+        for begin, end, length in sorted(edits):
+            written.setdefault(name, []).append((begin + moved, begin + moved + length))
+            moved += length - (end - begin)
+    return written
 
 
 def _key(diagnostic: Diagnostic) -> tuple[str, str, str]:
     """Return what identifies a diagnostic in two reports, in which its place may differ."""
     return diagnostic.code.id, diagnostic.span.file.name if diagnostic.span else "", diagnostic.message
-
-
-def _is_in_edit(error: Diagnostic, chosen: Iterable[_Candidate]) -> bool:
-    """Whether an error is on an edited line, not to the right of what was written there."""
-    span = error.span
-    edits = (edit for one in chosen for edit in one.fix.edits)
-    return span is not None and any(
-        edit.span.file.name == span.file.name
-        and edit.span.line == span.line
-        and span.column <= edit.span.end_column + len(edit.text)
-        for edit in edits
-    )
 
 
 def _write(texts: Mapping[Path, str], fixed: Mapping[Path, int], arguments: argparse.Namespace) -> None:

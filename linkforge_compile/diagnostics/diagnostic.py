@@ -84,12 +84,9 @@ class Diagnostic:
         remarks = tuple(note.message for note in self.notes if note.span is None)
         return self.code.id, self.severity, self.span.file.name if self.span else "", self.grouped_by, remarks
 
-    def replacing(self, old: str, new: str, *, is_safe: bool = False) -> Diagnostic:
-        """Return it with a fix that writes `new` in place of `old` in its span; of the whole span if `old` is empty.
-
-        The same diagnostic if the span does not have `old` exactly once.
-        """
-        return self.with_fix(Replacement(old, new, is_safe).within(self.span))
+    def replacing(self, old: str, new: str, *, is_safe: bool = False, is_whole: bool = False) -> Diagnostic:
+        """Return it with the fix of a Replacement in its span; the same diagnostic if that is not possible."""
+        return self.with_fix(Replacement(old, new, is_safe, is_whole).within(self.span))
 
     def with_fix(self, fix: Fix | None) -> Diagnostic:
         """Return it with one more fix; the same diagnostic for None."""
@@ -122,7 +119,7 @@ class Code:
     grouped_by: tuple[str, ...] = ()
     """The facts that agree in a group."""
     fix: Replacement | None = None
-    """What to write in the diagnostic's span, with facts as `{name}` fields."""
+    """What to write in the diagnostic's span, with facts as `{name}` fields; a fix only where these are given."""
 
     @property
     def title(self) -> str:
@@ -171,9 +168,8 @@ class Code:
 
     def _own_fix(self, span: Span | None, facts: Mapping[str, object]) -> Fix | None:
         """Return the fix of this kind of fault with the facts of one diagnostic, None if there is none."""
-        if self.fix is None:
-            return None
-        return self.fix._replace(old=self.fix.old.format(**facts), new=self.fix.new.format(**facts)).within(span)
+        filled = self.fix.filled(facts) if self.fix else None
+        return filled.within(span) if filled else None
 
 
 def _fix_name(span: Span | None, facts: Mapping[str, object], new: str | None, near: Collection[str]) -> Fix | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -12,6 +12,9 @@ from linkforge_compile.source.characters import on_one_line
 
 _LONGEST = 2_000
 """Characters of a text in which a word is looked for, and of what replaces it."""
+
+_QUOTES = ("'", '"')
+_MARKS_OF_FLOW = (",", "[", "]", "{", "}")
 
 _PLAIN = re.compile(r"[\w./+~°µμ-](?:[\w ./+~*^()²³·°-]*[\w./+~*^()²³·°-])?")
 """A word that means the same without quotes, also in a flow list or map."""
@@ -50,6 +53,15 @@ class Replacement(NamedTuple):
     old: str
     new: str
     is_safe: bool = False
+    is_whole: bool = False
+    """Whether `old` has to be all that the span contains, without the quotes around it, which are replaced too."""
+
+    def filled(self, facts: Mapping[str, object]) -> Replacement | None:
+        """Return it with facts for its `{name}` fields; None if there is no such fact."""
+        try:
+            return self._replace(old=self.old.format_map(facts), new=self.new.format_map(facts))
+        except KeyError:
+            return None
 
     def within(self, span: Span | None) -> Fix | None:
         """Return the fix of a text in a spec; None if the span does not have `old` exactly once.
@@ -62,17 +74,31 @@ class Replacement(NamedTuple):
         if end - begin > _LONGEST or len(self.new) > _LONGEST:
             return None
         text = span.file.counted[begin:end]
-        if self.old and (text.count(self.old) != 1 or ("$(" in text and not self.old.startswith("$"))):
+        if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
             return None
-        at = begin + (text.find(self.old) if self.old else 0)
-        place = span.file.between(at, at + len(self.old or text))
         title = f"write '{self.new}'" if self.new else f"leave out '{self.old}'"
-        return Fix(title, (Edit(place, self.new),), self.is_safe)
+        quote = text[0] if text and text[0] in _QUOTES else ""
+        if not self.old or self.is_whole:
+            if self.old not in (text, text.strip(quote), ""):
+                return None
+            return Fix(title, (Edit(span, _in_quotes(self.new, quote)),), self.is_safe)
+        at = begin + text.find(self.old)
+        if quote and at > begin and {quote, "\\"} & {*self.new}:
+            return None
+        return Fix(title, (Edit(span.file.between(at, at + len(self.old)), self.new),), self.is_safe)
 
     def is_word_for(self, span: Span | None) -> bool:
         """Whether `new` keeps its meaning in place of a name, in the quotes that the span has or without any."""
         quote = span.file.counted[span.file.index_of(*span.start)] if span and span.start != span.end else ""
-        return not {*"'\"\\\n"} & {*self.new} if quote in ("'", '"') else _PLAIN.fullmatch(self.new) is not None
+        return not {*"'\"\\\n"} & {*self.new} if quote in _QUOTES else _PLAIN.fullmatch(self.new) is not None
+
+
+def _in_quotes(value: str, quote: str) -> str:
+    """Return a value in quotes if it is an expression that needs them, or had them."""
+    if "$(" not in value or not (quote or any(mark in value for mark in _MARKS_OF_FLOW)):
+        return value
+    other = next((one for one in (quote, '"', "'") if one and one not in value), None)
+    return f"{other}{value}{other}" if other and "\\" not in value else value
 
 
 def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:

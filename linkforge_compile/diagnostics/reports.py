@@ -16,6 +16,7 @@ from linkforge_compile.diagnostics.codes.syntax import (
     NOTHING_TO_IGNORE,
 )
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.grouping import group_alike, ungrouped
 from linkforge_compile.diagnostics.sink import Diagnostics
 from linkforge_compile.source import Span
@@ -92,8 +93,9 @@ def _key(diagnostic: Diagnostic) -> tuple[str, int, str]:
 
 def _faults(comment: Suppression, used: Collection[tuple[str, int, str]], is_whole: bool) -> Iterator[Diagnostic]:
     if not comment.is_understood:
-        codes = ", ".join(dict.fromkeys(code.upper() for code, _ in comment.codes)) or "and codes such as LF6003"
-        yield IGNORE_MISWRITTEN.at(comment.span, codes=codes)
+        codes = ", ".join(dict.fromkeys(code.upper() for code, _ in comment.codes))
+        fault = IGNORE_MISWRITTEN.at(comment.span, codes=codes or "and codes such as LF6003")
+        yield fault.replacing("", f"# linkforge: ignore {codes}", is_safe=True) if codes else fault
         return
     if not comment.codes:
         yield IGNORE_WITHOUT_CODE.at(comment.span)
@@ -104,9 +106,29 @@ def _faults(comment: Suppression, used: Collection[tuple[str, int, str]], is_who
             hint = f"; write each in full, such as {example}" if example else ""
             yield IGNORE_OF_UNKNOWN_CODE.at(span, name=code, hint=hint, near=() if hint else REGISTER)
         elif REGISTER[code].severity is Severity.ERROR:
-            yield IGNORE_OF_ERROR.at(span, code=code)
+            yield IGNORE_OF_ERROR.at(span, code=code).with_fix(_removal(comment, span, is_safe=True))
         elif is_whole and not code.startswith(OUTPUT_CODES) and (span.file.name, comment.line, code) not in used:
-            yield NOTHING_TO_IGNORE.at(span, code=code, line=comment.line)
+            # Another variant, or other parameters, may need it.
+            fix = _removal(comment, span, is_safe=False)
+            yield NOTHING_TO_IGNORE.at(span, code=code, line=comment.line).with_fix(fix)
+
+
+def _removal(comment: Suppression, code: Span, *, is_safe: bool) -> Fix:
+    """Return the fix that removes a code from a comment; the only one together with the comment and its reason."""
+    file, line, codes = code.file, code.line, [span for _, span in comment.codes]
+    if len(codes) > 1:
+        at = codes.index(code)
+        begin, end = (codes[at - 1].end, code.end) if at else (code.start, codes[1].start)
+        return Fix(f"remove {code.text}", (Edit(Span(file, *begin, *end), ""),), is_safe)
+    text, start = file.line(line), comment.span.column - 1
+    following = text.find("#", comment.span.end_column - 1)
+    if following >= 0:
+        place = Span(file, line, start + 1, line, following + 1)
+    elif text[:start].strip():
+        place = Span(file, line, len(text[:start].rstrip()) + 1, line, len(text) + 1)
+    else:
+        place = Span(file, line, 1, line + 1, 1)
+    return Fix("remove this comment", (Edit(place, ""),), is_safe)
 
 
 def without_repeats(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -137,9 +137,13 @@ def _schemas_at(schema: Schema, key: str) -> list[Schema]:
 
 def snippet(name: str, description: str) -> Schema:
     """Return a snippet that inserts a name, in quotes if YAML would otherwise read another type."""
+    return {"label": name, "description": description, "body": re.sub(r"[$}\\]", r"\\\g<0>", in_quotes_if_needed(name))}
+
+
+def in_quotes_if_needed(name: str) -> str:
+    """Return a name as YAML has it: in quotes if it would otherwise read another type."""
     is_plain = _BARE.fullmatch(name) and scalar_value(name) is name
-    written = name if is_plain else json.dumps(name, ensure_ascii=False)
-    return {"label": name, "description": description, "body": re.sub(r"[$}\\]", r"\\\g<0>", written)}
+    return name if is_plain else json.dumps(name, ensure_ascii=False)
 
 
 def complete_module(parameters: Sequence[ListedParameter], entries: Entries) -> Schema:

@@ -32,7 +32,7 @@ SCHEMA = PurePath(".linkforge", "robot.schema.json")
 """The default path of a repository's schema."""
 
 _SPEC, _CMAKE, _PRE_COMMIT, _GITIGNORE = "{name}.robot.yaml", "CMakeLists.txt", ".pre-commit-config.yaml", ".gitignore"
-_SETTINGS, _EXTENSIONS = ".vscode/settings.json", ".vscode/extensions.json"
+_SETTINGS, _EXTENSIONS, _TASKS = ".vscode/settings.json", ".vscode/extensions.json", ".vscode/tasks.json"
 
 _TEMPLATES = {
     _SPEC: "robot.robot.yaml",
@@ -41,6 +41,7 @@ _TEMPLATES = {
     _PRE_COMMIT: "pre-commit-config.yaml",
     _SETTINGS: "settings.json",
     _EXTENSIONS: "extensions.json",
+    _TASKS: "tasks.json",
 }
 
 _FIND = "find_package(linkforge_compile REQUIRED)"
@@ -90,13 +91,29 @@ def _is_another(link: Path, files: set[str]) -> bool:
     return is_file(link) and identity(link) not in files
 
 
+def folders_of_specs(root: Path) -> tuple[Path, ...]:
+    """Return the folders that `find_specs` searches, the root first.
+
+    Raises:
+        TooManyFilesError: There are more than MAX_FOLDERS folders.
+
+    """
+    return tuple(folder for folder, _ in _walk_folders(root, None))
+
+
 def _walk(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[Path]:
+    for folder, files in _walk_folders(root, unread):
+        yield from (folder / name for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+
+
+def _walk_folders(root: Path, unread: Callable[[OSError], object] | None) -> Iterator[tuple[Path, list[str]]]:
+    """Yield each folder with the names of the files in it."""
     for number, (folder, inner, files) in enumerate(os.walk(root, onerror=unread), start=1):
         if number > MAX_FOLDERS:
             raise TooManyFilesError(f"more than {MAX_FOLDERS} folders")
         # os.walk does not enter what is removed here.
         inner[:] = sorted(name for name in inner if not name.startswith(".") and name not in _OUTPUT_FOLDERS)
-        yield from (Path(folder, name) for name in files if name.endswith(SPEC_ENDINGS) and not name.startswith("."))
+        yield Path(folder), files
 
 
 @dataclass(frozen=True)
@@ -185,6 +202,7 @@ class RobotFolder:
             _GITIGNORE: _missing_patterns,
             _SETTINGS: self._missing_settings,
             _EXTENSIONS: _missing_extensions,
+            _TASKS: _missing_tasks,
         }
         texts = self._texts(name)
         homes = {self._folder_of(path) / path: path for path in finders}
@@ -197,7 +215,7 @@ class RobotFolder:
         return [] if f'"{schema}"' in found or f'"./{schema}"' in found else [self._yaml_schemas()]
 
 
-_AT_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS)
+_AT_TOP = (_PRE_COMMIT, _SETTINGS, _EXTENSIONS, _TASKS)
 """Files that tools read only at the top of a repository."""
 
 
@@ -218,6 +236,12 @@ def _missing_patterns(found: str, text: str) -> list[str]:
 
 def _missing_extensions(found: str, text: str) -> list[str]:
     return [] if "redhat.vscode-yaml" in found else [line.strip() for line in text.splitlines()[1:-1]]
+
+
+def _missing_tasks(found: str, text: str) -> list[str]:
+    # The first one, which shows the others' form.
+    task = text.partition('"tasks": [\n')[2].partition("\n    },")[0]
+    return [] if '"linkforge"' in found else textwrap.dedent(f"{task}\n    }}").splitlines()
 
 
 def workspace_of(folder: Path) -> Path:

@@ -84,8 +84,8 @@ def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, ru
     except BeyondLimitError:
         return found
     is_whole = robot is not None and not sink.has_errors
-    names = _names(robot) if robot else {}
-    return replace(found, names=names, used=_used(expanded, used), entries=_entries(expanded), is_whole=is_whole)
+    names = names_by_kind(robot) if robot else {}
+    return replace(found, names=names, used=_used(expanded, used), entries=entries_of(expanded), is_whole=is_whole)
 
 
 def _without_meshes(instance: Instance) -> Instance:
@@ -100,11 +100,11 @@ def _used(instance: Instance, listed: Mapping[str, UsedFile]) -> dict[str, UsedF
         use = module.entry.node.child("use") if module.entry else None
         if isinstance(use, YamlScalar) and module.tree:
             one = found.setdefault(use.text, UsedFile())
-            found[use.text] = one if one.entries else one._replace(entries=_entries(module))
+            found[use.text] = one if one.entries else one._replace(entries=entries_of(module))
     return found
 
 
-def _entries(instance: Instance) -> Entries:
+def entries_of(instance: Instance) -> Entries:
     """Return the names in each section of a file; for an override, a frame is a link and a joint."""
     if instance.tree is None:
         return {}
@@ -135,12 +135,14 @@ def _without_expressions(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(name for name in names if "$(" not in name)
 
 
-def _names(robot: Robot) -> dict[str, tuple[str, ...]]:
+def names_by_kind(robot: Robot) -> dict[str, tuple[str, ...]]:
+    """Return the final names of a robot's parts by their kind; a sensor is one of ros2_control."""
     return {
         "link": tuple(link.name for link in robot.links),
         "joint": tuple(joint.name for joint in robot.joints),
         "material": tuple(robot.materials),
         "group": tuple(group.name for group in robot.semantic.groups),
+        "sensor": tuple(sensor.name for system in robot.ros2_controls for sensor in system.sensors),
     }
 
 

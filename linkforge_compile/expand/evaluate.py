@@ -230,7 +230,8 @@ def report_interpolated_number(
         remedy = f"write '{expression}'"
     elif isinstance(template.parts[0], Expression) and (unit := str(template.parts[1]).strip()) in UNITS:
         remedy = f"give the unit '{unit}' where the number is written, and here '$({template.parts[0].text.strip()})'"
-    sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy))
+    fault = TEXT_NOT_NUMBER.at(node.span, text=value, remedy=remedy)
+    sink.report(fault.replacing(node.text, expression, is_safe=True, is_whole=True) if expression else fault)
     return True
 
 
@@ -245,5 +246,6 @@ def report_interpolated_quantity(node: YamlNode, value: Value | Fault, evaluator
     whole = YamlScalar(expression, expression, node.span) if expression else None
     if whole is None or not isinstance(replace(evaluator, sink=Diagnostics()).value(whole), Quantity):
         return False
-    evaluator.sink.report(TEXT_NOT_NUMBER.at(node.span, text=value, remedy=f"write '{expression}'"))
+    fault = TEXT_NOT_NUMBER.at(node.span, text=value, remedy=f"write '{expression}'")
+    evaluator.sink.report(fault.replacing(node.text, whole.text, is_safe=True, is_whole=True))
     return True

@@ -236,7 +236,8 @@ def _holds(condition: YamlNode | None, evaluator: Evaluator) -> bool | Fault:
     text = condition.text if isinstance(condition, YamlScalar) else ""
     expression = as_one_expression(text, condition.span, evaluator.scope)
     remedy = f"; write '{expression}'" if expression else ""
-    evaluator.sink.report(CONDITION_KIND.at(place, found=f"{describe(value)}{remedy}"))
+    fault = CONDITION_KIND.at(place, found=f"{describe(value)}{remedy}")
+    evaluator.sink.report(fault.replacing(text, expression, is_safe=True, is_whole=True) if expression else fault)
     return FAULT
 
 

@@ -17,12 +17,13 @@ from linkforge_compile.diagnostics.codes.modules import (
     PARAMETER_TOO_SMALL,
     PARAMETER_WITHOUT_TYPE,
 )
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.expand.evaluate import Evaluator
 from linkforge_compile.expand.values import describe
 from linkforge_compile.expressions import FAULT, Value, forgotten_expression
 from linkforge_compile.expressions.types import as_text, dimension_name
 from linkforge_compile.source import Span
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS
 from linkforge_compile.units import WIDEST_ANGLE, Dimension, Quantity, number_text, unit_text, units_of
 
@@ -104,8 +105,11 @@ class Parameter:
         converted = self.type.convert(value)
         if converted is None:
             measured = f", which is {dimension_name(value.dimension)}" if isinstance(value, Quantity) else ""
-            found = f"{self._found(value)}{measured}{self._remedy(value, where, names)}"
-            sink.report(PARAMETER_KIND.at(where, parameter=self.name, expected=self.type.words, found=found))
+            remedy = self._remedy(value, where, names)
+            shown = f"'{remedy.new}'" if remedy and has_expression(remedy.new) else remedy and remedy.new
+            found = f"{self._found(value)}{measured}{f'; write {shown}' if shown else ''}"
+            fault = PARAMETER_KIND.at(where, parameter=self.name, expected=self.type.words, found=found)
+            sink.report(fault.with_fix(remedy.within(fault.span)) if remedy else fault)
             return None
         violation = next(self._violations(converted, where), None)
         if violation:
@@ -122,14 +126,14 @@ class Parameter:
             return f"{describe(item)} for {axis}"
         return describe(value)
 
-    def _remedy(self, value: Value, where: Span, names: Container[str]) -> str:
-        """Return what to write for a text that looks like a value of another type, else ""."""
+    def _remedy(self, value: Value, where: Span, names: Container[str]) -> Replacement | None:
+        """Return what to write for a text that looks like a value of another type, None for any other value."""
         if not isinstance(value, str):
-            return ""
+            return None
         if self.type.name == "boolean" and (truth := YAML_1_1_BOOLEANS.get(value.lower())):
-            return f"; write {truth}"
+            return Replacement(value, truth, is_safe=True, is_whole=True)
         expression = forgotten_expression(value, where, names)
-        return f"; write '{expression}'" if expression else ""
+        return Replacement(value, expression, is_whole=True) if expression else None
 
     def _violations(self, value: Value, where: Span) -> Iterator[Diagnostic]:
         name, found = self.name, describe(value)

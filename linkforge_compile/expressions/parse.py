@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import keyword
 import re
 import warnings
 from collections.abc import Container
@@ -13,18 +12,17 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
 from linkforge_compile.expressions.functions import CONSTANTS
 from linkforge_compile.expressions.refused_syntax import find_refused, operands
+from linkforge_compile.expressions.syntax_errors import STRING, explain_syntax_error
 from linkforge_compile.expressions.types import Expression, Template
 from linkforge_compile.source import Span
 from linkforge_compile.source.text_place import TextPlace
-from linkforge_compile.units import UNITS
 
 MAX_LENGTH = 2_000
 """The longest expression, in characters."""
 
 _OPENING = re.compile(r"\$?\$\(")
-_STRING = r"'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\""
-_BRACKETS_AND_QUOTES = re.compile(rf"{_STRING}|['\"()]", re.DOTALL)
-_STRINGS_AND_SPACES = re.compile(rf"{_STRING}|\s", re.DOTALL)
+_BRACKETS_AND_QUOTES = re.compile(rf"{STRING}|['\"()]", re.DOTALL)
+_STRINGS_AND_SPACES = re.compile(rf"{STRING}|\s", re.DOTALL)
 
 
 def parse_template(text: str, span: Span, sink: Diagnostics) -> Template | None:
@@ -84,8 +82,11 @@ def _parse_expression(text: str, offset: int, place: TextPlace, sink: Diagnostic
             tree = ast.parse(f"({text})", mode="eval").body
     except (SyntaxError, MemoryError, RecursionError, ValueError) as error:
         if isinstance(error, SyntaxError) and error.msg != "too many nested parentheses":
-            start, length, problem = explain_syntax_error(text, error)
-            sink.report(codes.UNREADABLE_EXPRESSION.at(place.part(offset + start, length), problem=problem))
+            found = explain_syntax_error(text, error)
+            fault = codes.UNREADABLE_EXPRESSION.at(
+                place.part(offset + found.start, found.length), problem=found.problem
+            )
+            sink.report(fault.with_fix(found.instead.within(fault.span)) if found.instead else fault)
         else:  # beyond the limits of Python's parser
             sink.report(codes.EXPRESSION_TOO_LARGE.at(place.part(offset, len(text)), fault="nests too deep"))
         return None
@@ -143,49 +144,3 @@ def _is_literal(tree: ast.expr) -> bool:
     while isinstance(tree, ast.UnaryOp):
         tree = tree.operand
     return isinstance(tree, ast.Constant) or (isinstance(tree, ast.Name) and tree.id in _LITERAL_NAMES)
-
-
-# Syntax errors
-
-_UNITS = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
-_KEYWORDS = "|".join(keyword.kwlist)
-
-_HABITS = (
-    (r"^\s*find\s+([\w-]+)\s*$", "'$(find ...)' is xacro; write package://{1}/..."),
-    (r"^\s*(?:arg|eval)\s+(.*?)\s*$", "'$(arg ...)' and '$(eval ...)' are xacro; write $({1})"),
-    (r"^\s*(?:env|optenv)\s.*", "the environment is not read; declare a parameter"),
-    (r"&&", "write 'and' for '&&'"),
-    (r"\|\|", "write 'or' for '||'"),
-    (r"!(?!=)", "write 'not' for '!'"),
-    (r"\?", "write: a if condition else b"),
-    (r"\$[({]?", "write names without '$' here"),
-    (r"#", "expressions cannot contain comments"),
-    (r"(?<![=!<>:])=(?!=)", "compare two values with '=='"),
-    (
-        rf"(?<![\w.])((?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*(?!in\b)(?:{_UNITS}))(?!\w)",
-        "units are not allowed here; declare '{1}' in 'variables'",
-    ),
-    (r"[×·⋅∙]", "write '*' for '{0}'"),
-    (r"÷", "write '/' for '{0}'"),
-    (r"[−–—]", "write '-' for '{0}'"),
-    (r"≤", "write '<=' for '{0}'"),
-    (r"≥", "write '>=' for '{0}'"),
-    (r"≠", "write '!=' for '{0}'"),
-    (r"²", "write '** 2' for '{0}'"),
-    (r"³", "write '** 3' for '{0}'"),
-    (rf"\.\s*({_KEYWORDS})\b", "'{1}' is a reserved word; read that key with ['{1}']"),
-    (r"(?<![\w.])0[0-9]+\b(?!\.)", "a number cannot begin with 0"),
-    (r"\bif\b(?!.*\belse\b)", "'if' needs an 'else'"),
-)
-"""Habits from other languages, searched in the text without its strings, and the problem; the first match wins."""
-
-
-def explain_syntax_error(text: str, error: SyntaxError) -> tuple[int, int, str]:
-    """Return the offset and length of a syntax error in an expression, and what is wrong."""
-    bare = re.sub(_STRING, lambda found: found[0][0] + " " * (len(found[0]) - 2) + found[0][0], text, flags=re.DOTALL)
-    for habit, problem in _HABITS:
-        if found := re.search(habit, bare):
-            return found.start(), len(found[0]), problem.format(found[0], *found.groups())
-    # Python counts from 1 and saw one more parenthesis. Its own message differs between versions.
-    start = min(max((error.offset or 0) - 2, 0), len(text))
-    return start, 1, "something is missing or unexpected here"

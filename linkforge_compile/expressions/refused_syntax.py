@@ -49,6 +49,8 @@ _REFUSED: dict[type[ast.AST], tuple[str, str]] = {
 }
 """Syntax of Python that expressions do not have: what it is called, and what to write instead."""
 
+_MATH_OF_PYTHON = ("math", "numpy", "np")
+
 _PYTHON_CONSTANTS = {True: "true", False: "false", None: "null"}
 
 
@@ -120,16 +122,20 @@ def _operator_fault(operator: ast.AST, left: ast.expr, right: ast.expr, expressi
     begin = expression.index(left.end_col_offset or 0)
     between = expression.text[begin : expression.index(right.col_offset)]
     start, length = begin + max(between.find(symbol), 0), len(symbol)
-    return codes.NOT_IN_EXPRESSIONS.at(
+    fault = codes.NOT_IN_EXPRESSIONS.at(
         expression.place.part(expression.offset + start, length), use=f"contain {what}", instead=instead
     )
+    return fault.replacing("^", "**") if isinstance(operator, ast.BitXor) else fault
 
 
 def _constant_fault(node: ast.Constant, value: object, expression: Expression) -> Diagnostic | None:
     match value:
         case bool() | None:
-            instead = f"write '{_PYTHON_CONSTANTS[value]}'"
-            return codes.NOT_IN_EXPRESSIONS.at(expression.span(node), use=f"contain '{value}'", instead=instead)
+            word = _PYTHON_CONSTANTS[value]
+            fault = codes.NOT_IN_EXPRESSIONS.at(
+                expression.span(node), use=f"contain '{value}'", instead=f"write '{word}'"
+            )
+            return fault.replacing(str(value), word, is_safe=True, is_whole=True)
         case str() if forbidden := FORBIDDEN_CHARACTER.search(value):
             what = f"the character {code_point(forbidden[0])}"
             return codes.NOT_IN_EXPRESSIONS.at(
@@ -148,12 +154,21 @@ def _constant_fault(node: ast.Constant, value: object, expression: Expression) -
     )
 
 
+def _attribute_fault(function: ast.expr, expression: Expression) -> Diagnostic:
+    """Return the error for a call of what is no name, such as `math.sqrt`."""
+    known = SIGNATURES.get(function.attr) if isinstance(function, ast.Attribute) else None
+    instead = f"write {known.signature}" if known else "call functions by their name only, such as sqrt(x)"
+    written = expression.written(function)
+    fault = codes.NOT_IN_EXPRESSIONS.at(expression.span(function), use=f"call '{written}'", instead=instead)
+    module, _, name = written.rpartition(".")
+    is_ours = known is not None and module in _MATH_OF_PYTHON
+    return fault.replacing(written, name, is_safe=True, is_whole=True) if is_ours else fault
+
+
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
     span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
-        known = SIGNATURES.get(call.func.attr) if isinstance(call.func, ast.Attribute) else None
-        instead = f"write {known.signature}" if known else "call functions by their name only, such as sqrt(x)"
-        return codes.NOT_IN_EXPRESSIONS.at(span, use=f"call '{expression.written(call.func)}'", instead=instead)
+        return _attribute_fault(call.func, expression)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:

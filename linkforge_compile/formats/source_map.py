@@ -8,7 +8,7 @@ makes a piece of a document would have to hand it on otherwise.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -16,10 +16,10 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.formats.xml_text import RESERVED
-from linkforge_compile.source.provenance import Provenance, written_at
+from linkforge_compile.source.provenance import Kind, Provenance, outward, written_at
 
 if TYPE_CHECKING:
-    from linkforge_compile.source import SourceRef
+    from linkforge_compile.source import SourceRef, Span
 
 
 class Segment(NamedTuple):
@@ -103,6 +103,14 @@ def origin_of(source: SourceRef | None, *path: str | int, of: str = "") -> str:
     if origins is None or source is None:
         return ""
     return origins.attribute(written_at(source.at(*path), source), of)
+
+
+def origin_of_use(uses: Sequence[Span]) -> str:
+    """Return the attribute for what the use of a file makes: the first of `uses`, before those that led to it."""
+    origins = active_origins()
+    if origins is None or not uses:
+        return ""
+    return origins.attribute(Provenance(Kind.WRITTEN, uses[0], "", outward(uses[0], tuple(uses[1:]))))
 
 
 def origins_of_lines(text: str, source: SourceRef | None, path: tuple[str | int, ...]) -> Callable[[int], str]:

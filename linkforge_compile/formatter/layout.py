@@ -126,8 +126,8 @@ class _Layout:
             while self._level and self._level.is_indentless:
                 self._level = self._level.outer
             self._level = self._level.outer if self._level else None
-        is_entry_of_map = piece.is_key or isinstance(piece.token, (tokens.KeyToken, tokens.ValueToken))
-        if self._level and self._level.is_indentless and is_entry_of_map and not self._brackets:
+        is_of_map = piece.is_key or isinstance(piece.token, (tokens.KeyToken, tokens.ValueToken))
+        if self._level and self._level.is_indentless and is_of_map and not piece.opens and not self._brackets:
             self._level = self._level.outer
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -76,6 +76,8 @@ def lower_file(
     )
     robot.source = SourceRef(tree, tree.get("name"), trail)
     faulty = [name for parts in (links, joints) for name, part in parts.items() if part is None]
+    faulty += _names_without_part(tree.get("ros2_control"), {control.name for control in robot.ros2_controls})
+    faulty += _names_without_part(tree.get("controllers"), {controller.name for controller in robot.controllers})
     unresolved = _unresolved_names(tree, faulty)
     if semantic:
         unresolved |= unresolved_of(semantic.faulty_names)
@@ -139,6 +141,11 @@ def _unresolved_names(tree: YamlMap, faulty: Iterable[str]) -> UnresolvedNames:
             *(name for entry in entries for name in names_at_fault(entry.value)),
         ]
     )
+
+
+def _names_without_part(section: YamlNode | None, names: Collection[str]) -> list[str]:
+    """Return the names in a section that are not those of parts: what is there is faulty."""
+    return [entry.name for entry in section if entry.name not in names] if isinstance(section, YamlMap) else []
 
 
 def _with_faulty_mimic(faulty: Iterable[YamlEntry], joints: YamlNode | None) -> list[str]:

@@ -205,9 +205,11 @@ def _in_bound(node: YamlNode, number: float, accepted: NumberType) -> float | Re
         return Refusal(NOT_FINITE, {"found": describe_node(node)})
     if accepted.bound and not accepted.bound.holds(number):
         found = describe_node(node)
+        facts = {"bound": accepted.bound.words + accepted.si_unit, "found": found}
         if suspicious_unit(node, number, accepted) is WIDE_ANGLE:
-            found = f"{found}; write '{found} deg' if degrees are meant"
-        return Refusal(OUT_OF_RANGE, {"bound": accepted.bound.words + accepted.si_unit, "found": found})
+            facts |= {"written": found, "instead": f"{found} deg"}
+            facts["found"] = f"{found}; write '{found} deg' if degrees are meant"
+        return Refusal(OUT_OF_RANGE, facts)
     return number
 
 
@@ -218,8 +220,9 @@ def _no_number(node: YamlNode, accepted: NumberType) -> Refusal:
     known = tuple(name for dimension in accepted.dimensions for name in units_of(dimension))
     similar = suggested_unit(unit)
     if similar and similar.dimension in accepted.dimensions:
-        hint = f"; write '{node.text.strip().removesuffix(unit).rstrip()} {similar.name}'"
-        return Refusal(UNKNOWN_UNIT, {"expected": accepted.words, "name": unit, "hint": hint})
+        instead = f"{node.text.strip().removesuffix(unit).rstrip()} {similar.name}"
+        facts = {"expected": accepted.words, "name": unit, "hint": f"; write '{instead}'"}
+        return Refusal(UNKNOWN_UNIT, {**facts, "written": node.text, "instead": instead})
     return Refusal(UNKNOWN_UNIT, {"expected": accepted.words, "name": unit, "hint": ""}, known)
 
 

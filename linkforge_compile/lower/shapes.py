@@ -183,7 +183,8 @@ def _lower_color(fields: Fields) -> Color | None:
     numbers = node if long is None else long.get("rgba", required="[0.6, 0.6, 0.65]")
     if isinstance(numbers, YamlList) and (suggestion := _suggested_color(numbers)):
         found = f"[{', '.join(item.text for item in numbers if isinstance(item, YamlScalar))}]; write '{suggestion}'"
-        fields.report(OUT_OF_RANGE, numbers, field="color", bound=ZERO_TO_ONE.words, found=found)
+        bound = ZERO_TO_ONE.words
+        fields.report(OUT_OF_RANGE, numbers, field="color", bound=bound, found=found, written="", instead=suggestion)
         return None
     if isinstance(numbers, YamlList) and _report_bytes(fields, numbers):
         return None
@@ -201,8 +202,9 @@ def _report_bytes(fields: Fields, numbers: YamlList) -> bool:
     if len(large) < len(others):
         return False
     for item, byte in zip(others, large, strict=True):
-        found = f"{byte}; write '{_of_byte(byte)}'"
-        fields.report(OUT_OF_RANGE, item, field="color", bound=ZERO_TO_ONE.words, found=found)
+        bound, instead = ZERO_TO_ONE.words, _of_byte(byte)
+        found = f"{byte}; write '{instead}'"
+        fields.report(OUT_OF_RANGE, item, field="color", bound=bound, found=found, written=str(byte), instead=instead)
     return bool(large)
 
 

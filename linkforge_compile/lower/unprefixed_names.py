@@ -161,7 +161,7 @@ def _hardware_prefixes(texts: PassthroughTexts) -> Iterator[Diagnostic]:
             remedy = f"change it{to_final} by {_override(path, is_name=True)}"
         value = f"'{bare}'" if bare else "empty"
         yield UNPREFIXED_HARDWARE.at(
-            one.where, key=one.key, control=one.control, value=value, part=one.part, remedy=remedy
+            one.where, key=one.key, control=one.control, value=value, part=one.part, remedy=remedy, bare=bare
         )
 
 

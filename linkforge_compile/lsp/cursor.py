@@ -1,7 +1,8 @@
 """Find what a position in a text is: the path of keys that leads to it, and whether a key or a value is there.
 
 The text need not parse. PyYAML reads it up to a marker in place of the word at the position, so that what follows does
-not matter; if what precedes is malformed, it reads from the last line that begins a section.
+not matter; if what precedes is malformed, it reads from the last line that begins a section, and else only the keys
+that are around the position by their indentation.
 """
 
 from __future__ import annotations
@@ -27,12 +28,15 @@ from linkforge_compile.syntax.parser import PARSER
 
 _Path: TypeAlias = tuple[str | int, ...]
 
-_MARKER = "linkforge_marker"
+MARKER = "linkforge_marker"
 """No word of a spec: its name is not one that a person gives to a part."""
 
 _WORD = re.compile(r"[^\s,\[\]{}()'\"#:$*+]*")
 _SECTION = re.compile(r"^(?=[^\s#\-\]}])", re.MULTILINE)
 """The first character of a line that begins a section."""
+
+_KEY = re.compile(r"(?P<indent>\s*)(?:-\s+)*[^\s#\-\[\]{},][^#]*?:(?=\s|$)")
+"""A key that begins a line."""
 
 _OWN_LINE = re.compile(r"\s*(-\s+)*")
 
@@ -51,7 +55,8 @@ class Cursor(NamedTuple):
 
     `path` leads to the value or item there, for a key to the map that has it. `word` is the place of the word at the
     position. `before` is what is written of the scalar up to the position, with the words before it. `siblings` are the
-    keys that precede a key in its map. `is_own_line` tells whether nothing else precedes it in its line.
+    keys that precede a key in its map. `is_own_line` tells whether nothing else precedes it in its line, `is_flow`
+    whether it is in braces or brackets.
     """
 
     path: _Path
@@ -60,6 +65,7 @@ class Cursor(NamedTuple):
     before: str
     siblings: tuple[str, ...] = ()
     is_own_line: bool = False
+    is_flow: bool = False
 
     @property
     def typed(self) -> str:
@@ -89,45 +95,69 @@ def find_cursor(file: SourceFile, at: Position) -> Cursor | None:
         for marked in _marked(rest, is_own_line=is_own_line):
             found = _find_marker(beginning + marked)
             if found is not None:
-                path, role, before, siblings = found
+                path, role, before, siblings, is_flow = found
                 role = Role.ITEM if role is Role.KEY and begins_item and is_own_line else role
-                return Cursor(path, role, span, before + line[begin : at.column - 1], siblings, is_own_line)
+                typed = before + line[begin : at.column - 1]
+                return Cursor(path, role, span, typed, siblings, is_own_line, is_flow)
     return None
 
 
 def _beginnings(text: str) -> Iterator[str]:
-    """Yield a text, and what of it begins with the last line that begins a section."""
+    """Yield a text, what of it begins with the last line that begins a section, and the keys around its last line."""
     yield text
     sections = [found.start() for found in _SECTION.finditer(text)]
     if sections and sections[-1]:
         yield text[sections[-1] :]
+    yield _keys_around(text.split("\n"))
+
+
+def _keys_around(lines: list[str]) -> str:
+    """Return the last of the lines with the keys above it that are indented less, each less than those below it."""
+    last = lines[-1]
+    kept, indent = [last], len(last) - len(last.lstrip())
+    for line in reversed(lines[:-1]):
+        key = _KEY.match(line)
+        if key and len(key["indent"]) < indent:
+            kept.append(key[0])
+            indent = len(key["indent"])
+    return "\n".join(reversed(kept))
 
 
 def _marked(rest: str, *, is_own_line: bool) -> Iterator[str]:
     """Yield the marker with each end that may make it a scalar; `rest` is what follows the word in its line."""
     if is_own_line:
-        yield f"{_MARKER}: "
-    yield from (_MARKER, f"{_MARKER}{rest}", f'{_MARKER}"', f"{_MARKER}'")
+        yield f"{MARKER}: "
+    yield from (MARKER, f"{MARKER}{rest}", f'{MARKER}"', f"{MARKER}'")
 
 
-_Found: TypeAlias = tuple[_Path, Role, str, tuple[str, ...]]
+_Found: TypeAlias = tuple[_Path, Role, str, tuple[str, ...], bool]
 
 
 def _find_marker(text: str) -> _Found | None:
-    """Return the path of the marker, its role, what precedes it in its scalar, and the keys before it in its map."""
+    """Return what a Cursor needs to know of the marker."""
     levels: list[_Level] = []
+    before = _read_to_marker(text, levels)
+    return None if before is None else _found(levels, before)
+
+
+def _read_to_marker(text: str, levels: list[_Level]) -> str | None:
+    """Read a text and keep the `levels` that are open; return what precedes the marker in its scalar, None for none.
+
+    If the text is malformed, they are those that are open there.
+    """
     try:
         for event in yaml.parse(text, Loader=PARSER):
             match event:
-                case ScalarEvent(value=value) if _MARKER in value:
-                    return _found(levels, value.partition(_MARKER)[0])
+                case ScalarEvent(value=value) if MARKER in value:
+                    return str(value.partition(MARKER)[0])
                 case ScalarEvent(value=value):
                     if levels:
                         levels[-1].pass_node(value)
                 case AliasEvent():
                     levels[-1].pass_node("")
                 case MappingStartEvent() | SequenceStartEvent():
-                    levels.append(_Level(is_map=isinstance(event, MappingStartEvent)))
+                    is_map = isinstance(event, MappingStartEvent)
+                    levels.append(_Level(is_map=is_map, is_flow=bool(event.flow_style)))
                 case MappingEndEvent() | SequenceEndEvent():
                     levels.pop()
                     if levels:
@@ -137,11 +167,35 @@ def _find_marker(text: str) -> _Found | None:
     return None
 
 
+def closed(text: str) -> str | None:
+    """Return a text that ends with the marker, with the quote and the brackets that close what is open there."""
+    for quote in ("", '"', "'"):
+        levels: list[_Level] = []
+        if _read_to_marker(text + quote, levels) is not None:
+            return text + quote + "".join("}" if level.is_map else "]" for level in reversed(levels) if level.is_flow)
+    return None
+
+
+def section_lines(file: SourceFile, line: int) -> tuple[int, int]:
+    """Return the first and the last line of the section that a line is in; those of the file for one above all."""
+    starts = [number for number, text in enumerate(file.lines, start=1) if _SECTION.match(text)]
+    first = max((start for start in starts if start <= line), default=1)
+    last = min((start for start in starts if start > line), default=len(file.lines) + 1) - 1
+    return first, last
+
+
+def section_names(file: SourceFile, line: int) -> tuple[str, ...]:
+    """Return the keys of the sections of a file, but for one in a line."""
+    lines = (text for number, text in enumerate(file.lines, start=1) if number != line and _SECTION.match(text))
+    return tuple(text.partition(":")[0].strip() for text in lines)
+
+
 @dataclass
 class _Level:
     """A map or list that the parser is in; `step` is its key or the position of its item, None before a key."""
 
     is_map: bool
+    is_flow: bool = False
     keys: list[str] = field(default_factory=list)
     items: int = 0
     is_value: bool = False
@@ -165,8 +219,9 @@ class _Level:
 def _found(levels: list[_Level], before: str) -> _Found:
     path = tuple(level.step for level in levels if level.step is not None)
     if not levels or (levels[-1].is_map and not levels[-1].is_value):
-        return path, Role.KEY, before, tuple(levels[-1].keys) if levels else ()
-    return path, Role.VALUE if levels[-1].is_map else Role.ITEM, before, ()
+        keys, is_flow = (tuple(levels[-1].keys), levels[-1].is_flow) if levels else ((), False)
+        return path, Role.KEY, before, keys, is_flow
+    return path, Role.VALUE if levels[-1].is_map else Role.ITEM, before, (), levels[-1].is_flow
 
 
 def open_expression(text: str) -> str | None:

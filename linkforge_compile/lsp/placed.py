@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.analysis import Analysis
@@ -59,16 +59,27 @@ class Placed(NamedTuple):
         return self.use.path(self.path)
 
 
-def uses_in(document: Document) -> Iterator[FileUse]:
-    """Yield all uses of files in the analyses of a document."""
-    for analysis in document.analyses:
+def uses_in(analyses: Iterable[Analysis]) -> Iterator[FileUse]:
+    """Yield all uses of files in some analyses."""
+    for analysis in analyses:
         if analysis.instance is not None:
             yield from _uses(analysis, analysis.instance, "", ())
 
 
+def is_malformed(document: Document) -> bool:
+    """Whether the text cannot be read, so that what is known of it is from an earlier one."""
+    return document.analysis is None or document.analysis.instance is None
+
+
+def known_analyses(document: Document) -> tuple[Analysis, ...]:
+    """Return the analyses of a document, with the latest of a text that could be read if its own cannot."""
+    last = (document.readable,) if document.readable is not None and is_malformed(document) else ()
+    return (*last, *document.analyses)
+
+
 def uses_of(document: Document) -> Iterator[FileUse]:
-    """Yield the uses of a document's own file."""
-    for use in uses_in(document):
+    """Yield the uses of a document's own file; of a malformed one those that it had before."""
+    for use in uses_in(known_analyses(document)):
         if use.instance.tree is not None and document.holds(use.instance.tree.span):
             yield use
 
@@ -99,7 +110,7 @@ def placed_in(document: Document, start: Position, end: Position) -> Iterator[Pl
             known = files[id(span.file)] = document.holds(span)
         return known
 
-    for use in uses_in(document):
+    for use in uses_in(document.analyses):
         for path, node, key in _trees(use.instance):
             if key is not None and is_here(key.span):
                 yield Placed(use, path, node, key)

@@ -16,6 +16,8 @@ from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
 from linkforge_compile.analysis import analyse_path
+from linkforge_compile.lsp.code_actions import KINDS, code_actions
+from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
 from linkforge_compile.lsp.folding import folding_ranges
@@ -113,9 +115,11 @@ def make_server() -> SpecServer:
     server = SpecServer()
     _add_synchronization(server)
     _add_structure(server)
+    _add_completion(server)
     _add_navigation(server)
     _add_rename(server)
     _add_hover(server)
+    _add_actions(server)
     return server
 
 
@@ -148,6 +152,14 @@ def _add_synchronization(server: SpecServer) -> None:
             if (path := path_of(change.uri)) and identity(path) not in server.specs.buffers:
                 server.specs.note_change(path)
         await server.schedule()
+
+
+def _add_completion(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=TRIGGERS))
+    def _complete(params: types.CompletionParams) -> list[types.CompletionItem]:
+        document = server.document(params.text_document.uri)
+        client = Client.of(server.client_capabilities)
+        return complete(document, params.position, server.specs.settings(), client) if document else []
 
 
 async def _put(server: SpecServer, uri: str, *, delay: float) -> None:
@@ -236,3 +248,10 @@ def _refusals() -> Iterator[None]:
         yield
     except RefusedError as error:
         raise JsonRpcException(str(error), types.LSPErrorCodes.RequestFailed.value) from None
+
+
+def _add_actions(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS))
+    async def _act(params: types.CodeActionParams) -> list[types.CodeAction]:
+        document = await server.analysed(params.text_document.uri)
+        return code_actions(document, params.range, params.context) if document else []

@@ -37,12 +37,16 @@ class Buffer(NamedTuple):
 
 
 class Document(NamedTuple):
-    """What a feature sees of an open buffer: its text, and the analyses of the specs that read it, its own first."""
+    """What a feature sees of an open buffer: its text, and the analyses of the specs that read it, its own first.
+
+    `readable` is the latest of the first of them that was not malformed.
+    """
 
     path: Path
     file: SourceFile
     analyses: tuple[Analysis, ...]
     columns: Columns
+    readable: Analysis | None = None
 
     @property
     def analysis(self) -> Analysis | None:
@@ -68,6 +72,8 @@ class Workspace:
     """The open buffers by real path."""
     analyses: dict[str, Analysis] = field(default_factory=dict)
     """The latest analysis of each spec by real path."""
+    readable: dict[str, Analysis] = field(default_factory=dict)
+    """The latest analysis of each spec whose text was not malformed, by real path."""
     generation: int = 0
     _stale: set[str] = field(default_factory=set)
     _includers: dict[str, tuple[Path, ...]] = field(default_factory=dict)
@@ -88,6 +94,7 @@ class Workspace:
         self.note_change(path)
         needed = {identity(root) for root in self.roots()}
         self.analyses = {root: analysis for root, analysis in self.analyses.items() if root in needed}
+        self.readable = {root: analysis for root, analysis in self.readable.items() if root in needed}
         self._stale &= needed
 
     def note_change(self, path: Path) -> None:
@@ -123,6 +130,8 @@ class Workspace:
     def keep(self, path: Path, analysis: Analysis, includers: Iterable[Path] = ()) -> None:
         """Keep the analysis of a spec; `includers` are the specs to analyse in its place if it is a part of them."""
         self.analyses[identity(path)] = analysis
+        if analysis.instance is not None:
+            self.readable[identity(path)] = analysis
         if includers:
             self._includers[identity(path)] = tuple(includers)
 
@@ -134,7 +143,9 @@ class Workspace:
             return None
         own = [self.analyses[real]] if real in self.analyses and real not in self._includers else []
         others = [one for root, one in self.analyses.items() if root != real and _reads(one, real)]
-        return Document(buffer.path, buffer.file, (*own, *others), columns)
+        readable = [self.readable[real]] if real in self.readable and real not in self._includers else []
+        readable += [one for root, one in self.readable.items() if root != real and _reads(one, real)]
+        return Document(buffer.path, buffer.file, (*own, *others), columns, readable[0] if readable else None)
 
 
 def is_spec(path: Path) -> bool:

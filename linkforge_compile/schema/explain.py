@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 
 from jsonschema import Draft7Validator
 
-from linkforge_compile.diagnostics import MAX_KEPT, Diagnostics, notes_of, too_many_errors
+from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics, notes_of, too_many_errors
 from linkforge_compile.diagnostics.codes import schema as codes
 from linkforge_compile.diagnostics.codes.syntax import TAB_INDENTATION, XACRO_EXPRESSION
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.findings import Finding, merge_missing_levels
-from linkforge_compile.schema.hint_rules import is_row, value_hint, word_hint
+from linkforge_compile.schema.hint_rules import value_hint, word_hint
+from linkforge_compile.schema.hints import renamed_key
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
+from linkforge_compile.schema.number_texts import is_row
 from linkforge_compile.schema.registry import HEADER, linked, plain
 from linkforge_compile.schema.shapes import (
     FREE,
@@ -35,7 +38,7 @@ from linkforge_compile.schema.shapes import (
     shortened,
     words_of,
 )
-from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
@@ -198,6 +201,8 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         first, *others = entries
         hinted = f"; {hint}" if hint else ""
         fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        if new := renamed_key(str(schema["title"]), first.name):
+            fault = fault.replacing(first.name, new, is_safe=True)
         if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):
             fault = replace(fault, fixes=())  # the key would be written twice
         if space_like := find_like_space(first):
@@ -221,8 +226,16 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             entry.value.child(name) or nearest(entry.name, known) == name for entry in unknown[:_MOST_COMPARED]
         )
         if node.get(name) is None and not is_reported:
-            code = codes.MISSING_VERSION if name == "linkforge" else codes.MISSING_NAME
-            yield Finding(code.at(first), (*path, name))
+            fault = _missing_version(first) if name == "linkforge" else codes.MISSING_NAME.at(first)
+            yield Finding(fault, (*path, name))
+
+
+def _missing_version(first: Span) -> Diagnostic:
+    """Return the error for a file without its version, at its first key."""
+    fault, start = codes.MISSING_VERSION.at(first), Span(first.file, *first.start, *first.start)
+    newline = "\r\n" if "\r\n" in first.file.text else "\n"
+    fix = Fix("write 'linkforge: 1'", (Edit(start, f"linkforge: 1{newline}"),), is_safe=True)
+    return fault.with_fix(fix) if first.column == 1 else fault
 
 
 def _other_version(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -235,15 +248,19 @@ def _wrong_word(mismatch: SchemaMismatch) -> Iterator[Finding]:
     if isinstance(node, YamlScalar) and isinstance(node.value, str):
         words = words_of(schema)
         hint = word_hint(mismatch, words)
-        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint}
-        yield Finding(codes.UNKNOWN_WORD.at(node.span, near=() if hint else words, notes=(), **facts), path)
+        facts = {"field": field(path), "expected": expected(schema), "name": shortened(node.text), "hint": hint.ending}
+        fault = codes.UNKNOWN_WORD.at(node.span, near=() if hint.ending else words, notes=(), **facts)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _wrong_kind(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
-    actual = f"{found(node)}{value_hint(mismatch)}"
+    hint = value_hint(mismatch)
+    actual = f"{found(node)}{hint.ending}"
     fault = codes.WRONG_KIND.at(node.span, field=field(path), expected=expected(schema), found=actual)
-    yield Finding(fault, path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0)
+    yield Finding(
+        fault.with_fix(hint.fix(node.span)), path, wrong_kind=id(schema) if isinstance(node, YamlScalar) else 0
+    )
 
 
 def _no_branch(mismatch: SchemaMismatch) -> Iterator[Finding]:
@@ -255,9 +272,10 @@ def _wrong_length(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
     # A row of numbers without commas is reported at its item.
     if isinstance(node, YamlList) and not any(map(is_row, node)):
-        actual = f"{len(node)}{value_hint(mismatch)}"
+        hint = value_hint(mismatch)
+        actual = f"{len(node)}{hint.ending}"
         fault = codes.WRONG_LENGTH.at(node.span, field=field(path), expected=expected(schema), found=actual)
-        yield Finding(fault, path)
+        yield Finding(fault.with_fix(hint.fix(node.span)), path)
 
 
 def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:

@@ -23,32 +23,36 @@ _KEYS = (
     ("", "macros xacro:macro", "put it in a file of its own and use that under 'modules'"),
     ("", "xacro:include", "list files of the same robot under 'include', files of its parts under 'modules'"),
     ("a robot", "srdf", "write 'semantic'"),
-    ("a parameter", "min", "write 'minimum'"),
-    ("a parameter", "max", "write 'maximum'"),
     ("defaults", "frame", "defaults do not apply to frames"),
     ("an override", "frames", "a frame is a link and a joint here; override those under 'links' or 'joints'"),
     ("an override, a module", "parameters", _SET_BY_WITH),
     ("a module", "args", _SET_BY_WITH),
-    ("a module", "file", "write 'use'"),
     ("a link", "origin", "it belongs under 'visual', 'collision' or 'inertial'; a joint's 'origin' places its child"),
     ("a link", "pose xyz rpy", _JOINT_PLACES_LINK),
     ("an inertial", "com center_of_mass", "write 'origin: [x, y, z]', with 'inertia' about it"),
-    ("a cylinder", "height", "write 'length'"),
     ("a material", "rgba", "write 'color: [r, g, b, a]'"),
-    ("a joint", "child_link", "write 'child'"),
-    ("a joint's limits", "min", "write 'lower'"),
-    ("a joint's limits", "max", "write 'upper'"),
-    ("a joint's limits", "torque force", "write 'effort'"),
-    ("a joint's limits", "speed", "write 'velocity'"),
-    ("a mesh", "filename uri", "write 'file'"),
     ("a gazebo block", "mu", "write 'mu1', and 'mu2' for the second direction"),
-    ("a ros2_control block", "plugin", "write 'hardware_plugin'"),
-    ("a lidar's settings", "samples", "write 'horizontal_samples'"),
-    ("a lidar's settings", "min_angle", "write 'horizontal_min_angle'"),
-    ("a lidar's settings", "max_angle", "write 'horizontal_max_angle'"),
     ("a lidar's settings", "range", "write 'range_min', 'range_max' and 'range_resolution'"),
     ("a camera's settings", "image", "write 'width', 'height' and 'format'"),
     ("a visual, a collision, a joint, a sensor, a frame, a module, an inertial", "pose transform", _POSE),
+)
+
+_RENAMED_KEYS = (
+    # objects by title, keys of other formats with the same values, our key
+    ("a parameter", "min", "minimum"),
+    ("a parameter", "max", "maximum"),
+    ("a module", "file", "use"),
+    ("a cylinder", "height", "length"),
+    ("a joint", "child_link", "child"),
+    ("a joint's limits", "min", "lower"),
+    ("a joint's limits", "max", "upper"),
+    ("a joint's limits", "torque force", "effort"),
+    ("a joint's limits", "speed", "velocity"),
+    ("a mesh", "filename uri", "file"),
+    ("a ros2_control block", "plugin", "hardware_plugin"),
+    ("a lidar's settings", "samples", "horizontal_samples"),
+    ("a lidar's settings", "min_angle", "horizontal_min_angle"),
+    ("a lidar's settings", "max_angle", "horizontal_max_angle"),
 )
 
 _NUMBERS_OF_LISTS = (
@@ -109,6 +113,7 @@ def _by_key(rows: Iterable[tuple[str, str, str]]) -> dict[tuple[str, str], str]:
 
 
 _KEY_HINTS = _by_key(_KEYS)
+_NEW_KEYS = _by_key(_RENAMED_KEYS)
 _NUMBER_HINTS = _by_key(_NUMBERS_OF_LISTS)
 _OTHER_KEY_HINTS = {owner: hint for owners, hint in _ANY_OTHER_KEY for owner in owners.split(", ")}
 _INTENDED_WORDS = {word: intended for intended, words in _WORDS.items() for word in words.split()}
@@ -116,7 +121,14 @@ _INTENDED_WORDS = {word: intended for intended, words in _WORDS.items() for word
 
 def known_key_hint(owner: str, key: str) -> str:
     """Return the hint for a key in an object of this title, "" where the table has none."""
+    if new := renamed_key(owner, key):
+        return f"write '{new}'"
     return _KEY_HINTS.get((owner, key)) or _KEY_HINTS.get(("", key), "")
+
+
+def renamed_key(owner: str, key: str) -> str:
+    """Return our key for one of another format whose values are the same, "" for any other key."""
+    return _NEW_KEYS.get((owner, key), "")
 
 
 def number_of_list_hint(owner: str, key: str) -> str:

@@ -10,7 +10,6 @@ from linkforge_compile.diagnostics import MAX_KEPT, Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes.schema import SECTION_LINE_INDENTED, SECTION_LINE_LOST
 from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.schema.hint_rules import number_hint
 from linkforge_compile.schema.hints import (
     ESSENTIAL_KEYS,
     MAY_BE_EMPTY,
@@ -20,6 +19,7 @@ from linkforge_compile.schema.hints import (
     other_key_hint,
 )
 from linkforge_compile.schema.json_schema import Json, Schema, branches, has_names, mapping
+from linkforge_compile.schema.number_texts import number_hint
 from linkforge_compile.schema.registry import accepts
 from linkforge_compile.schema.shapes import (
     COMMON_KEYS,

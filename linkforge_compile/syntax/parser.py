@@ -94,7 +94,7 @@ def suppressions_in(file: SourceFile, budget: Budget | None = None) -> Iterator[
     `# linkforge: disable LF6003`, are yielded as not understood. Each is charged to the budget.
     """
     marks = Marks(file)
-    if not _LIKE_A_COMMENT.search(marks.text) or (texts := _texts(marks)) is None:
+    if not _LIKE_A_COMMENT.search(marks.text) or (texts := find_scalars(marks)) is None:
         return
     budget = budget or Budget()
     starts, line_of = [text.start for text in texts], _find_lines(file)
@@ -130,7 +130,7 @@ def _find_lines(file: SourceFile) -> Callable[[int], int]:
     return line_of
 
 
-def _texts(marks: Marks) -> tuple[Span, ...] | None:
+def find_scalars(marks: Marks) -> tuple[Span, ...] | None:
     """Return the spans of the file's scalars, in which a `#` begins no comment; None if it is not YAML."""
     for parser in (PARSER, yaml.BaseLoader):
         try:

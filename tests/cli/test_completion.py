@@ -116,6 +116,11 @@ PARAMETERS = ["reach:=", "hardware:=", "has_gripper:="]
         ("linkforge explain broken.robot.yaml jo", []),
         ("linkforge compile missing.robot.yaml re", []),
         ("linkforge compile arm.robot.yaml --package nowhere re", []),
+        (
+            "linkforge format arm.robot.yaml ",
+            ["arm.robot.yaml", "broken.robot.yaml", "notes.yaml", "build/", "meshes/"],
+        ),
+        ("linkforge params arm.robot.yaml ", []),
         ("linkforge nothing ", []),
         ("cd linkforge && linkforge compile arm.robot.yaml rea", ["reach:="]),
         ("linkforge compile ../linkforge rea", []),

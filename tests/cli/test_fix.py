@@ -119,3 +119,42 @@ def test_a_form_for_programs_has_what_remains(tmp_path: Path, form: str):
     run = linkforge("check", "--fix", "--format", form, cwd=tmp_path)
     assert run.returncode == 0
     assert "LF1020" not in run.stdout
+
+
+def test_the_same_mistake_on_several_lines_is_fixed_everywhere(tmp_path: Path):
+    """The parser stops at the first one."""
+    joints = "".join(f"  {child}_joint:\n    type:fixed\n    parent: rod\n    child: {child}\n" for child in "ab")
+    text = PENDULUM.replace("links:\n", "links:\n  a:\n  b:\n") + joints
+    spec = write(tmp_path / "arm.robot.yaml", text)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines()[0] == "fixed 2 problems in arm.robot.yaml"
+    assert spec.read_text() == text.replace("type:fixed", "type: fixed")
+
+
+def test_a_key_that_is_there_already_is_not_written_again(tmp_path: Path):
+    limits = "limits: {lower: 0, min: 0, upper: 1, effort: 1, velocity: 1}"
+    spec = write(tmp_path / "arm.robot.yaml", PENDULUM.replace("type: continuous", f"type: revolute, {limits}"))
+    text = spec.read_text()
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert "'min' is not a key of a joint's limits; write 'lower'" in run.stderr
+    assert spec.read_text() == text
+
+
+def test_two_keys_for_one_are_not_both_renamed(tmp_path: Path):
+    limits = "limits: {lower: 0, torque: 1, upper: 1, force: 1, velocity: 1}"
+    spec = write(tmp_path / "arm.robot.yaml", PENDULUM.replace("type: continuous", f"type: revolute, {limits}"))
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines()[0] == "fixed 1 problem in arm.robot.yaml"
+    assert spec.read_text().count("effort: 1") == 1
+
+
+def test_values_of_another_format_are_written_as_ours(tmp_path: Path):
+    joint = "hinge: {type: hinge, parent: {link: base}, child_link: rod, axis: '0 1 0', limits: "
+    joint += "{min: -90 degrees, max: 90 DEG, effort: '5', speed: 2}}"
+    spec = write(tmp_path / "arm.robot.yaml", PENDULUM.partition("  hinge:")[0] + f"  {joint}\n")
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines()[0] == "fixed 10 problems in arm.robot.yaml"
+    assert spec.read_text().splitlines()[-1] == (
+        "  hinge: {type: revolute, parent: base, child: rod, axis: [0, 1, 0], limits: "
+        "{lower: -90 deg, upper: 90 deg, effort: 5, velocity: 2}}"
+    )

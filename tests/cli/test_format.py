@@ -6,10 +6,13 @@ from pathlib import Path
 import pytest
 
 from tests.cli.in_process import linkforge
+from tests.conftest import ROOT
 
 WRITTEN = "linkforge: 1\nname:   arm   # linkforge: ignore LF6003\nlinks: { base: }\n"
 FORMATTED = "linkforge: 1\nname: arm   # linkforge: ignore LF6003\nlinks: {base: }\n"
 FAULTY = "linkforge: 1\nname: [arm\n"
+
+EXAMPLES = list((ROOT / "examples").rglob("*.robot.yaml"))
 
 
 @pytest.fixture
@@ -123,3 +126,16 @@ def test_a_missing_file_and_a_folder_without_specs_are_reported(folder: Path):
     run = linkforge("format", "empty", cwd=folder)
     assert run.returncode == 1
     assert "LF3067" in run.stderr
+
+
+def test_all_examples_are_formatted():
+    assert linkforge("format", "--check", "examples", cwd=ROOT).stderr == f"{len(EXAMPLES)} files unchanged\n"
+
+
+def test_the_specs_that_commands_write_are_formatted(tmp_path: Path):
+    assert linkforge("init", "arm", "--dir", str(tmp_path), cwd=tmp_path).returncode == 0
+    assert linkforge("compile", "arm.robot.yaml", "-o", "arm.urdf", cwd=tmp_path).returncode == 0
+    assert linkforge("import", "arm.urdf", "-o", "imported.robot.yaml", cwd=tmp_path).returncode == 0
+    rover = ROOT / "examples" / "06_rover" / "rover.robot.yaml"
+    assert linkforge("expand", str(rover), "-o", str(tmp_path / "flat.robot.yaml"), cwd=tmp_path).returncode == 0
+    assert linkforge("format", "--check", cwd=tmp_path).stderr == "3 files unchanged\n"

@@ -21,6 +21,7 @@ FILES = {
     ".pre-commit-config.yaml",
     ".vscode/extensions.json",
     ".vscode/settings.json",
+    ".vscode/tasks.json",
     "CMakeLists.txt",
     "my-arm.robot.yaml",
 }
@@ -105,7 +106,7 @@ def test_files_at_the_top_of_a_package_or_repository_are_not_written_twice(tmp_p
 def test_what_tools_read_at_the_top_of_a_repository_is_written_there(tmp_path: Path):
     (tmp_path / ".git").mkdir()
     stderr = linkforge("init", "arm", cwd=tmp_path).stderr
-    top = {".pre-commit-config.yaml", ".vscode/settings.json", ".vscode/extensions.json"}
+    top = {".pre-commit-config.yaml", ".vscode/settings.json", ".vscode/extensions.json", ".vscode/tasks.json"}
     assert all(f"wrote {name}\n" in stderr for name in top)
     assert top <= files_in(tmp_path).keys()
     assert "compile --check arm/arm.robot.yaml -o arm/urdf/" in (tmp_path / ".pre-commit-config.yaml").read_text()
@@ -140,6 +141,7 @@ def test_missing_lines_of_existing_files_are_shown_ready_to_insert(tmp_path: Pat
         "robots/.gitignore": "build/\n",
         ".vscode/settings.json": '{"editor.tabSize": 2}\n',
         ".vscode/extensions.json": "{}\n",
+        ".vscode/tasks.json": "{}\n",
     }
     for name, text in mine.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -155,6 +157,7 @@ def test_missing_lines_of_existing_files_are_shown_ready_to_insert(tmp_path: Pat
     settings = json.loads(f"{{{missed['.vscode/settings.json']}}}")
     assert settings["yaml.schemas"].keys() == {"robots/.linkforge/robot.schema.json"}
     assert missed[".vscode/extensions.json"].strip() == '"recommendations": ["redhat.vscode-yaml"]'
+    assert json.loads(missed[".vscode/tasks.json"])["label"] == "linkforge check"
     # Once they are put in, nothing is missed.
     for name, text in missed.items():
         (tmp_path / name).write_text(mine[name] + text)

@@ -1,4 +1,4 @@
-"""`linkforge watch`: what a person does between two looks at the files is done where it would sleep."""
+"""`linkforge watch`: it compiles again after each change, and reports what went wrong."""
 
 import argparse
 import os
@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,23 +15,10 @@ from linkforge_compile import Compilation
 from linkforge_compile.cli.build import BuildRequest
 from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
+from tests.cli.watching import Deed, nothing, removes, run_with, sets
 
 CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
 ARM = "linkforge: 1\nname: arm\nlinks: {hand: }\n"
-
-Deed = Callable[[Path], object]
-
-
-def sets(name: str, text: str) -> Deed:
-    return lambda folder: (folder / name).write_text(text)
-
-
-def removes(name: str) -> Deed:
-    return lambda folder: (folder / name).unlink()
-
-
-def nothing(folder: Path) -> None:
-    """Somebody thinks."""
 
 
 @pytest.fixture
@@ -45,21 +32,7 @@ def cell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def watch(cell: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Callable[..., list[str]]:
     def run(*deeds: Deed, words: tuple[str, ...] = ()) -> list[str]:
-        """Watch while the steps run, each one when the last is done; return the printed lines."""
-        left: Iterator[Deed] = iter(deeds)
-
-        def pause(seconds: float) -> None:
-            # The long pause is that before a look, the short one that for a change to be whole.
-            if seconds < 0.1:
-                return
-            deed = next(left, None)
-            if deed is None:
-                raise KeyboardInterrupt
-            deed(cell)
-
-        monkeypatch.setattr(time, "sleep", pause)
-        assert main(["watch", "cell.robot.yaml", "-o", "out/", *words]) == 130
-        return capfd.readouterr().err.splitlines()
+        return run_with(deeds, ("watch", "cell.robot.yaml", "-o", "out/", *words), cell, monkeypatch, capfd)
 
     return run
 

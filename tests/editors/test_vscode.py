@@ -2,21 +2,17 @@
 
 import json
 import re
-import shutil
 import struct
 import subprocess
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
-import pytest
-
 from linkforge_compile import __version__
 from tests.conftest import ROOT
-from tests.npm import installed_modules
+from tests.editors.conftest import EXTENSION
 from tests.programs import program
 
-EXTENSION = ROOT / "editors" / "vscode"
 MANIFEST = json.loads((EXTENSION / "package.json").read_text("utf-8"))
 CONTRIBUTED = MANIFEST["contributes"]
 SETTINGS = CONTRIBUTED["configuration"]["properties"]
@@ -29,24 +25,6 @@ const anything = new Proxy(class {}, { get: (made, name) => (name in made ? made
 Module._load = (name, ...rest) => (name === "vscode" ? anything : load(name, ...rest));
 console.log(Object.keys(require(process.argv[1])).sort().join(" "));
 """
-
-
-@pytest.fixture(scope="session")
-def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of the extension's folder with its packages, as after `npm ci`."""
-    folder = tmp_path_factory.mktemp("extension") / "vscode"
-    shutil.copytree(EXTENSION, folder, ignore=shutil.ignore_patterns("node_modules", "out", "*.vsix"))
-    (folder / "node_modules").symlink_to(installed_modules(EXTENSION))
-    return folder
-
-
-@pytest.fixture(scope="session")
-def packed(project: Path) -> ZipFile:
-    """The .vsix that `npm run package` makes; that checks the types as well."""
-    command = (program("npm"), "run", "package", "--", "--out", "linkforge.vsix")
-    run = subprocess.run(command, cwd=project, capture_output=True, text=True, timeout=300, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
-    return ZipFile(project / "linkforge.vsix")
 
 
 def read_json(text: bytes) -> Any:

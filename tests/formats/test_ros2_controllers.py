@@ -686,6 +686,14 @@ def test_names_in_parameters_of_the_manager_take_the_prefix(tmp_path: Path):
     }
 
 
+def test_names_of_faulty_hardware_and_controllers_are_one_fault_each():
+    faulty = ROBOT.replace("  all:\n", "  grip: {joints: {}}\n  all:\n")
+    start = "hardware_components_initial_state: {inactive: [grip, all]}"
+    manager = f"controller_manager: {{parameters: {{{start}, move: {{fallback_controllers: [hold]}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{faulty}controllers: {{move: {{type: a/B}}, hold: {{typ: a/B}}, {manager}}}\n"
+    assert [one.code.id for one in compile_text(text).diagnostics if one.code.id != "LF6112"] == ["LF5005", "LF2101"]
+
+
 def test_the_file_that_uses_modules_states_the_initial_state_of_their_hardware(tmp_path: Path):
     states = "{unconfigured: [l_all], shutdown_on_initial_state_failure: true}"
     parameters = f"{{hardware_components_initial_state: {states}}}"

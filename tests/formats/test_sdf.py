@@ -362,3 +362,48 @@ def test_a_robot_without_links_is_no_model():
     assert missing is not None
     assert missing.code.id == "LF7513"
     assert SDF.missing(compiled("links: {base: {inertial: *unit}}")) is None
+
+
+ARM = """\
+linkforge: 1
+name: arm
+links: {hand: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}
+sensors: {eye: {type: imu, link: hand, update_rate: 100, topic: /eye}}
+"""
+TWO_WITH_PLUGIN = """\
+linkforge: 1
+name: two
+links: {base: {inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}}
+modules:
+  left: {use: arm.robot.yaml, parent: base}
+gazebo:
+  plugins:
+    glow: {filename: libglow.so, parameters: {rate: 5}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "file", "number", "words"),
+    [
+        ('<link name="left_hand">', "arm", 3, "hand"),
+        ('<sensor name="left_eye"', "arm", 4, "eye"),
+        ("<update_rate>", "arm", 4, "100"),
+        ("<topic>", "arm", 4, "/eye"),
+        ('<model name="left">', "two", 5, "arm.robot.yaml"),
+        ("<child>left::left_hand", "two", 5, "left"),
+        ('<plugin name="glow"', "two", 8, "glow"),
+        ("<rate>", "two", 8, "5"),
+    ],
+)
+def test_a_source_map_has_nested_models_sensors_and_plugins(
+    tmp_path: Path, line: str, file: str, number: int, words: str
+):
+    (tmp_path / "arm.robot.yaml").write_text(ARM)
+    (tmp_path / "two.robot.yaml").write_text(TWO_WITH_PLUGIN)
+    robot = compile_file(tmp_path / "two.robot.yaml").result()
+    result = SDF.render(robot, Rendering({"nested": "yes"}, has_map=True))[0]
+    assert result.map is not None
+    lines = result.text.splitlines()
+    place = result.map.at(next(place for place, text in enumerate(lines, 1) if line in text))
+    assert place is not None
+    assert (Path(place.span.file.name).name, place.span.line, place.span.text) == (f"{file}.robot.yaml", number, words)

@@ -343,6 +343,31 @@ def test_text_on_several_lines_stays_below_its_key():
     )
 
 
+def test_a_map_below_its_anchor_is_indented():
+    formats(
+        """
+        a:
+        - &first
+          x: 1
+        - !tag
+          - &second
+            y: 2
+        b: &third
+            z: 3
+        """,
+        """
+        a:
+          - &first
+            x: 1
+          - !tag
+            - &second
+              y: 2
+        b: &third
+          z: 3
+        """,
+    )
+
+
 def test_documents_tabs_and_explicit_keys_stay():
     assert format_text("%YAML 1.2\n---\na:\tb\t# c\n...\n---\n- 1\n") == "%YAML 1.2\n---\na: b  # c\n...\n---\n- 1\n"
     assert format_text("?   a\n:   - b\n? c\n") == "? a\n: - b\n? c\n"

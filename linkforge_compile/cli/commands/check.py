@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import time
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, NoReturn, TypeAlias
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import (
@@ -23,7 +24,7 @@ from linkforge_compile.cli.reports import (
     select,
     write_to_stderr,
 )
-from linkforge_compile.cli.specs import SpecReport, count, find_parts, find_specs_of
+from linkforge_compile.cli.specs import FoundSpecs, SpecReport, count, find_parts, find_specs_of, is_folder
 from linkforge_compile.cli.targets import add_for_option, refuse_formats_as_specs
 from linkforge_compile.formats import formats_or_default
 
@@ -46,6 +47,7 @@ examples:
   linkforge check --for mjcf --strict arm.robot.yaml    what MJCF cannot hold of it, as errors
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
   linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 reports only those
+  linkforge check --watch                           again whenever a file changes; Ctrl-C ends
   linkforge check --fix                             write what is certain, such as '$(reach)' for '${reach}'
 """
 
@@ -65,6 +67,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fix", action="store_true", help="write the safe corrections into the files, then report what remains"
     )
+    parser.add_argument(
+        "--watch", action="store_true", help="check again whenever one of the files changes, until Ctrl-C"
+    )
     add_spec_options(parser, variants_help="once more for another one, in the same report")
     add_format_options(parser)
     add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
@@ -73,9 +78,60 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from linkforge_compile.diagnostics.render_text import summary
+    if arguments.watch:
+        _watch(arguments)
+    report = _check_all(arguments)
+    return FAULTY_SPEC if errors_of(report.diagnostics) else OK
 
+
+def _watch(arguments: argparse.Namespace) -> NoReturn:
+    from linkforge_compile.cli.watching import SpecSearch, Watched, repeat_on_changes
+    from linkforge_compile.editor.folders import folders_of_specs
+    from linkforge_compile.file_watcher import FileWatcher
+
+    if arguments.diagnostics != "text":
+        raise UsageError(f"--watch prints text for people, found --diagnostics {arguments.diagnostics}")
+    if arguments.fix:
+        raise UsageError("takes --watch or --fix, not both: a file would change while it is edited")
+    words = split_assignments(arguments.words)[0] or ["."]
+    if "-" in words:
+        raise UsageError("--watch takes files, not standard input")
+    roots = [Path(word) for word in words if is_folder(word)]
+    watcher = FileWatcher()
+
+    def check() -> Watched:
+        search = SpecSearch(
+            lambda: [folder for root in roots for folder in folders_of_specs(root)],
+            lambda: find_specs_of(words, arguments).specs,
+        )
+        began = time.time_ns()
+        watcher.track(_check_all(arguments).watched, began)
+        return Watched(watcher.paths or roots, lambda: tuple(dict.fromkeys((*watcher.poll(), *search.poll()))))
+
+    repeat_on_changes("check", check, arguments)
+
+
+def _check_all(arguments: argparse.Namespace) -> _Report:
+    """Check all specs and print the report."""
     words, assignments = split_assignments(arguments.words)
+    found = _find_specs(words, arguments)
+
+    def check(buffers: Mapping[str, str]) -> _Report:
+        checks = {spec: _merge_runs(_check(spec, assignments, arguments, buffers)) for spec in found.specs}
+        return _report_of(checks, found.faults, arguments)
+
+    if arguments.fix:
+        from linkforge_compile.cli.fixing import fix_files
+
+        report = fix_files(check, found.specs, arguments)
+    else:
+        report = check({})
+    _print(report, arguments)
+    return report
+
+
+def _find_specs(words: Sequence[str], arguments: argparse.Namespace) -> FoundSpecs:
+    """Return the specs to check; UsageError for options that do not go with each other or with these specs."""
     refuse_formats_as_specs(words, "--for")
     requested = [one.name for one in formats_or_default(arguments.formats)]
     refuse_options_of_other_formats(arguments, requested, "--for")
@@ -88,23 +144,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("several --variant take files, not standard input, which can be read once")
     if arguments.fix and "-" in found.specs:
         raise UsageError("--fix takes files, not standard input")
-
-    def check(buffers: Mapping[str, str]) -> _Report:
-        checks = {spec: _merge_runs(_check(spec, assignments, arguments, buffers)) for spec in found.specs}
-        return _report_of(checks, found.faults, arguments)
-
-    if arguments.fix:
-        from linkforge_compile.cli.fixing import fix_files
-
-        report = fix_files(check, found.specs, arguments)
-    else:
-        report = check({})
-    wholes, chosen = report.wholes, report.diagnostics
-    _print(chosen, arguments)
-    if not arguments.quiet:
-        variants = _variants_summary(wholes) if arguments.all_variants else ""
-        write_to_stderr(f"checked {count(len(wholes), 'spec')}{variants}: {summary(chosen)}\n")
-    return FAULTY_SPEC if errors_of(chosen) else OK
+    return found
 
 
 def _report_of(checks: Mapping[str, _Check], faults: Iterable[Diagnostic], arguments: argparse.Namespace) -> _Report:
@@ -116,7 +156,8 @@ def _report_of(checks: Mapping[str, _Check], faults: Iterable[Diagnostic], argum
     parts = find_parts({spec: check.report for spec, check in checks.items()}, (MISSING_NAME,))
     wholes = [check for spec, check in checks.items() if spec not in parts]
     diagnostics = (*faults, *(one for check in wholes for one in check.report.diagnostics))
-    return _Report(tuple(wholes), select(without_repeats(diagnostics), arguments))
+    watched = tuple(dict.fromkeys(file for check in checks.values() for file in (*check.report.files, *check.unread)))
+    return _Report(tuple(wholes), select(without_repeats(diagnostics), arguments), watched)
 
 
 def _check(
@@ -131,30 +172,38 @@ def _check(
     return check_each_variant(Path(spec), check_settings_of(assignments, arguments)._replace(buffers=buffers))
 
 
-def _print(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> None:
-    """Print text for people on standard error, and forms for programs on standard output."""
-    text = format_diagnostics(diagnostics, arguments)
+def _print(report: _Report, arguments: argparse.Namespace) -> None:
+    """Print text for people on standard error, forms for programs on standard output, and a summary."""
+    from linkforge_compile.diagnostics.render_text import summary
+
+    text = format_diagnostics(report.diagnostics, arguments)
     if arguments.diagnostics == "text":
         write_to_stderr(text)
     else:
         from linkforge_compile.cli.output import write_to_stdout
 
         write_to_stdout(text)
+    if not arguments.quiet:
+        variants = _variants_summary(report.wholes) if arguments.all_variants else ""
+        specs = count(len(report.wholes), "spec")
+        write_to_stderr(f"checked {specs}{variants}: {summary(report.diagnostics)}\n")
 
 
 class _Check(NamedTuple):
-    """The report of a spec, and how many of its variants were checked and how many were not."""
+    """The report of a spec, how many of its variants were checked and how many were not, and the files it lacked."""
 
     report: SpecReport
     variants: int
     unchecked: int
+    unread: tuple[Path, ...]
 
 
 class _Report(NamedTuple):
-    """The checks of the specs that are no parts of others, and the diagnostics to show."""
+    """The checks of the specs that are no parts of others, the diagnostics to show, and all files read or sought."""
 
     wholes: tuple[_Check, ...]
     diagnostics: tuple[Diagnostic, ...]
+    watched: tuple[Path, ...]
 
 
 def _merge_runs(compilations: _Compilations) -> _Check:
@@ -167,7 +216,9 @@ def _merge_runs(compilations: _Compilations) -> _Check:
         for variant, one in checked.items()
     }
     files = [file for one in checked.values() for file in one.files]
-    return _Check(SpecReport(merge_reports(runs), files), len(checked) - 1, len(compilations) - len(checked))
+    unread = tuple(file for one in checked.values() for file in one.unread)
+    report = SpecReport(merge_reports(runs), files)
+    return _Check(report, len(checked) - 1, len(compilations) - len(checked), unread)
 
 
 def _variants_summary(checks: Iterable[_Check]) -> str:

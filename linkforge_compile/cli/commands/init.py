@@ -13,10 +13,11 @@ if TYPE_CHECKING:
     from linkforge_compile.editor.folders import RobotFolder
 
 _EXAMPLES = """\
-Writes a first spec NAME.robot.yaml, the schema with which editors complete it, settings of VS Code, .gitignore,
-.pre-commit-config.yaml and CMakeLists.txt. Existing files are kept, and the lines that they lack are printed; only the
-schema is renewed. Files that serve a whole package or repository are not written again in a folder within it; settings
-of VS Code and .pre-commit-config.yaml, which tools read only at the top of a repository, are written there.
+Writes a first spec NAME.robot.yaml, the schema with which editors complete it, settings and tasks of VS Code,
+.gitignore, .pre-commit-config.yaml and CMakeLists.txt. Existing files are kept, and the lines that they lack are
+printed; only the schema is renewed. Files that serve a whole package or repository are not written again in a folder
+within it; those of VS Code and .pre-commit-config.yaml, which tools read only at the top of a repository, are written
+there.
 
 examples:
   linkforge init my_arm               in a new folder my_arm

@@ -7,23 +7,17 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkforge_compile.cli import OK, WRONG_USAGE, UsageError
+from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.build import BuildRequest, compile_request, render_request
 from linkforge_compile.cli.commands import compile as compile_command
 from linkforge_compile.cli.delivery import deliver
-from linkforge_compile.cli.reports import print_failure, print_line, print_status
+from linkforge_compile.cli.reports import print_failure
+from linkforge_compile.cli.watching import Watched, repeat_on_changes
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
-
-_POLL_INTERVAL = 0.3
-"""Time between two polls of the files [s]."""
-
-_SETTLE_TIME = 0.05
-"""Time without another change before compiling [s], because an editor may write files in several steps."""
 
 _EXAMPLES = """\
 Errors are reported and leave the old output; the next change compiles again. Press Ctrl-C to end it.
@@ -53,19 +47,17 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("--then takes a command, found nothing")
     request.targets.require_files("watch", "renews files")
     watcher = FileWatcher([Path(request.spec)])
-    exit_code = _build(request, watcher, arguments)
-    while True:
+
+    def build() -> Watched:
+        request = compile_command.parse_request(arguments)
+        exit_code = _build(request, watcher, arguments)
         if exit_code == OK and arguments.then is not None:
             _run_then(arguments)
-        print_status(f"watching {_listed(watcher.paths)}; Ctrl-C ends", arguments)
         # Outputs that the command of --then removed need not be written again.
         outputs = [path for path in request.targets.files if path.exists()] if exit_code == OK else []
-        changed, gone = _wait(watcher, outputs)
-        if changed:
-            print_status(f"{_listed(changed)} changed", arguments)
-        if gone:
-            print_status(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
-        exit_code = _build_again(watcher, arguments)
+        return Watched(watcher.paths, watcher.poll, outputs)
+
+    repeat_on_changes("watch", build, arguments)
 
 
 def _build(request: BuildRequest, watcher: FileWatcher, arguments: argparse.Namespace) -> int:
@@ -89,36 +81,6 @@ def _templates(request: BuildRequest) -> tuple[Path, ...]:
     outputs = (path for path in request.targets.paths.values() if path is not None)
     is_written = any(identity(path.parent) == identity(folder.folder) for path in outputs)
     return (*folder.files, *folder.unread, *(() if is_written else (folder.folder,)))
-
-
-def _build_again(watcher: FileWatcher, arguments: argparse.Namespace) -> int:
-    """Build, and report a usage error instead of ending, because the user may correct its cause."""
-    try:
-        return _build(compile_command.parse_request(arguments), watcher, arguments)
-    except UsageError as error:
-        print_line(f"linkforge watch: {error}")
-        return WRONG_USAGE
-
-
-def _wait(watcher: FileWatcher, outputs: Sequence[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
-    """Wait for changed files or deleted outputs, then until nothing else changes; return both."""
-    changed: tuple[Path, ...] = ()
-    gone: tuple[Path, ...] = ()
-    while not changed and not gone:
-        time.sleep(_POLL_INTERVAL)
-        changed = watcher.poll()
-        gone = tuple(path for path in outputs if not path.exists())
-    while True:
-        time.sleep(_SETTLE_TIME)
-        more = watcher.poll()
-        if not more:
-            return changed, gone
-        changed = tuple(dict.fromkeys((*changed, *more)))
-
-
-def _listed(paths: tuple[Path, ...]) -> str:
-    first, *others = paths
-    return f"{first} and {len(others)} more" if others else str(first)
 
 
 def _run_then(arguments: argparse.Namespace) -> None:

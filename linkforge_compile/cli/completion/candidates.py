@@ -22,11 +22,14 @@ Described = dict[str, str]
 """Completions with their descriptions, "" for none."""
 
 _SPECS = (".robot.yaml", ".robot.yml", ".urdf", ".xacro")
-_ENDINGS = {"import": (".urdf", ".xacro"), "where": ("",)}
-"""The endings of the files that are the words of a command, other than specs; "" for any file."""
+_ENDINGS = {"import": (".urdf", ".xacro"), "where": ("",), "format": (".yaml", ".yml")}
+"""The endings of the files that are the words of a command, other than robots; "" for any file."""
 
-_TAKE_SEVERAL = {"compile": None, "check": None, "collisions": None, "diff": 2}
-"""Commands on several robots, with the most that they take, None for any number."""
+_TAKE_SEVERAL = {"compile": None, "check": None, "collisions": None, "format": None, "diff": 2}
+"""Commands on several files, with the most that they take, None for any number."""
+
+_TAKE_NO_VALUES = ("format", "params", "where")
+"""Commands without `NAME:=VALUE`."""
 
 
 class Candidates(BaseCompleter):
@@ -73,7 +76,8 @@ class Candidates(BaseCompleter):
         most = _TAKE_SEVERAL.get(self._command, 1)
         is_full = most is not None and len(self._words) >= most
         files = [] if is_full else _paths(prefix, _ENDINGS.get(self._command, _SPECS))
-        return {**self._of_parameters(prefix, ":="), **dict.fromkeys(files, "")}
+        parameters = {} if self._command in _TAKE_NO_VALUES else self._of_parameters(prefix, ":=")
+        return {**parameters, **dict.fromkeys(files, "")}
 
     def _of_explained(self, prefix: str) -> Described:
         if self._words:

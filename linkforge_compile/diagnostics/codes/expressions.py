@@ -1,6 +1,7 @@
 """LF31xx: `$(...)` and the quantities in it."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.source.provenance import Location
 
 _E, _W = Severity.ERROR, Severity.WARNING
@@ -31,11 +32,18 @@ NOT_TEXT = Code("LF3131", _E, "{found} cannot be inserted into text{way}")
 
 CIRCULAR_NAMES = Code("LF3141", _E, "'{first}' is computed from itself: {path}")
 CHAIN_TOO_LONG = Code("LF3142", _E, "'{first}' is computed through {count} other names")
-TRUTH_AS_TEXT = Code("LF3143", _E, "'{name}' is text in YAML 1.2, not true or false; write {expected}", _VALUE)
+TRUTH_AS_TEXT = Code(
+    "LF3143",
+    _E,
+    "'{name}' is text in YAML 1.2, not true or false; write {expected}",
+    _VALUE,
+    fix=Replacement("{name}", "{expected}", is_safe=True, is_whole=True),
+)
 WIDE_LITERAL = Code(
     "LF3144",
     _W,
     "{function}() of {found} radians, more than a whole turn; write '{function}(radians({found}))' for degrees",
+    fix=Replacement("{found}", "radians({found})"),
 )
 
 WITHOUT_VALUES = (

@@ -1,6 +1,7 @@
 """LF5xxx: values that the model refuses."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.source.provenance import Location
 
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
@@ -9,7 +10,13 @@ _DATA, _VALUE = Location.DATA, Location.VALUE
 # LF50xx: fields of any object
 WRONG_KIND = Code("LF5001", _E, "{field} takes {expected}, found {found}", _DATA)
 WRONG_DIMENSION = Code("LF5002", _E, "{field} takes {expected}, found {found}, which is {other}", _DATA)
-UNKNOWN_UNIT = Code("LF5003", _E, "{field} takes {expected}; there is no unit '{name}'{hint}", _DATA)
+UNKNOWN_UNIT = Code(
+    "LF5003",
+    _E,
+    "{field} takes {expected}; there is no unit '{name}'{hint}",
+    _DATA,
+    fix=Replacement("{written}", "{instead}", is_safe=True, is_whole=True),
+)
 NOT_FINITE = Code("LF5004", _E, "{field} must be a finite number, found {found}", _VALUE)
 MISSING_FIELD = Code(
     "LF5005",
@@ -18,7 +25,13 @@ MISSING_FIELD = Code(
     _DATA,
     in_xml="{owner} needs {element}",
 )
-OUT_OF_RANGE = Code("LF5006", _E, "{field} must be {bound}, found {found}", _VALUE)
+OUT_OF_RANGE = Code(
+    "LF5006",
+    _E,
+    "{field} must be {bound}, found {found}",
+    _VALUE,
+    fix=Replacement("{written}", "{instead}", is_whole=True),
+)
 UNKNOWN_CHOICE = Code("LF5007", _E, "{field} is one of {choices}, found '{name}'", _VALUE)
 WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}", _DATA)
 WIDE_ANGLE = Code(
@@ -27,6 +40,7 @@ WIDE_ANGLE = Code(
     "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant",
     _VALUE,
     in_xml="{field} is {found} radians, {turns} turns; write '{of_degrees}' if degrees are meant",
+    fix=Replacement("{found}", "{found} deg", is_whole=True),
 )
 LONG_LENGTH = Code(
     "LF5010",
@@ -34,6 +48,7 @@ LONG_LENGTH = Code(
     "{field} is {found} metres; write '{found} mm' if millimetres are meant",
     _VALUE,
     in_xml="{field} is {found} metres; write '{thousandth}' if millimetres are meant",
+    fix=Replacement("{found}", "{found} mm", is_whole=True),
 )
 REFUSED = Code("LF5011", _E, "{owner}: {reason}", _VALUE)
 
@@ -145,6 +160,7 @@ FAST_JOINT = Code(
     _N,
     "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant",
     in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{expected}' if {units} are meant",
+    fix=Replacement("{found}", "{found} {unit}", is_whole=True),
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
 MIMIC_OUTSIDE_LIMITS = Code("LF5575", _W, "joint '{joint}' goes {range}, but its leader '{leader}' drives it {found}")
@@ -200,6 +216,7 @@ UNPREFIXED_NAME = Code(
     "LF5704",
     _W,
     "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}",
+    fix=Replacement("{name}", "$({kind}('{name}'))"),
     subject="name",
     grouped_by=("kind",),
 )
@@ -207,7 +224,10 @@ ABSOLUTE_TOPIC = Code(
     "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
 )
 UNPREFIXED_HARDWARE = Code(
-    "LF5706", _W, "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}"
+    "LF5706",
+    _W,
+    "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}",
+    fix=Replacement("{bare}", "$(prefix){bare}"),
 )
 SCANNER_WITHOUT_RAYS = Code(
     "LF5707",

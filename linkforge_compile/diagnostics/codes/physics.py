@@ -1,6 +1,7 @@
 """LF6xxx: masses and inertias that no body has, and interfaces that no hardware can serve."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.source.provenance import Location
 
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
@@ -159,6 +160,7 @@ UNRESOLVED_PACKAGE = Code(
     "LF6114",
     _W,
     "plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write '$(path('{path}'))'",
+    fix=Replacement("{path}", "$(path('{path}'))"),
     in_xml="plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write the path of "
     "the file, in a xacro '$(find {package})'",
 )

@@ -13,6 +13,7 @@ from linkforge_compile.formats.sdf.elements import pose, pose_between, pose_of_f
 from linkforge_compile.formats.sdf.layout import MODEL, Layout
 from linkforge_compile.formats.sdf.relative_pose import relative_pose
 from linkforge_compile.formats.single_axis import leader_of
+from linkforge_compile.formats.source_map import origin_of_use
 from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
@@ -100,7 +101,10 @@ class Models:
 
     def attributes(self, model: Model) -> Xml:
         """Return the attributes of a nested model."""
-        return attributes_at(None, name=self.names[model], canonical_link=self.canonical_link(model))
+        root = self._layout.robot.links[self._root(model)]
+        uses = root.source.trail[-len(model) :] if root.source else ()
+        attributes = attributes_at(None, name=self.names[model], canonical_link=self.canonical_link(model))
+        return Xml(origin_of_use(uses) + attributes)
 
     def pose(self, model: Model) -> Xml:
         """Return the pose of a nested model in that around it."""

@@ -53,7 +53,7 @@ def _parts_of(document: Document, at: Position, cursor: Cursor, settings: Settin
     if declared := show_declared(document, cursor, settings):
         yield declared
         return
-    yield show_parts(document, at) or show_values(document, at)
+    yield show_parts(document, at, cursor) or show_values(document, at)
     # What an alias inserts is described where it is used.
     yield show_key(cursor) or next((describe_key(one.path) for one in placed_at(document, at)), "")
 

@@ -15,7 +15,7 @@ from linkforge_compile.load import SpecFile
 from linkforge_compile.lsp.cursor import Cursor, Role
 from linkforge_compile.lsp.hover.text import MAX_SHOWN, and_more, bullets, code, code_block
 from linkforge_compile.lsp.occurrences import COMPUTING
-from linkforge_compile.lsp.placed import FileUse, placed_at, uses_in, uses_of
+from linkforge_compile.lsp.placed import FileUse, known_analyses, placed_at, uses_in, uses_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.source import Position
 
@@ -93,7 +93,7 @@ def show_declared(document: Document, cursor: Cursor, settings: Settings) -> str
 
 def _declared(document: Document, name: str, settings: Settings) -> ListedParameter | None:
     """Return a parameter of the document's own file, or of the file that includes it."""
-    for analysis in document.analyses:
+    for analysis in known_analyses(document):
         if analysis.spec is not None and document.holds(analysis.spec.file.whole):
             return _named(_listed(analysis.spec, settings), name)
     use = next(uses_of(document), None)
@@ -136,7 +136,7 @@ def _facts(one: ListedParameter | None) -> str:
 
 def _show_argument(document: Document, module: str, name: str, settings: Settings) -> str:
     """Return what the parameter of a module is that this document sets, with its value in each use of the module."""
-    uses = [use for use in uses_in(document) if _is_entry(document, use, module)]
+    uses = [use for use in uses_in(known_analyses(document)) if _is_entry(document, use, module)]
     if not uses:
         return ""
     facts = _facts(_of_module(uses[0], name, settings))

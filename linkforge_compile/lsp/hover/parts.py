@@ -10,15 +10,19 @@ from linkforge_compile.core.models.graph import child_joints, parent_joints, wal
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Inertial, Link
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.editor.completions import marked_names
 from linkforge_compile.export_spec import UnknownPathError, explain
 from linkforge_compile.export_spec.explain import computed_from
 from linkforge_compile.export_spec.explanation_lines import computed_lines
+from linkforge_compile.lsp.cursor import Cursor, Role
 from linkforge_compile.lsp.hover.modules import describe_module
 from linkforge_compile.lsp.hover.text import MAX_SHOWN, RULE, and_more, bullets, code, code_block
 from linkforge_compile.lsp.hover.values import quantity_of
 from linkforge_compile.lsp.occurrences import DECLARING, Occurrence, Occurrences
+from linkforge_compile.lsp.placed import is_malformed, uses_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
+from linkforge_compile.schema.descriptions import described_at
 from linkforge_compile.source import Position, Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import ACCELERATION, EFFORT, JERK, POSITION, SPEED, FieldUnit, number_text
@@ -36,14 +40,29 @@ _LIMITS = {
 }
 
 
-def show_parts(document: Document, at: Position) -> str:
+def show_parts(document: Document, at: Position, cursor: Cursor) -> str:
     """Return the parts that the name at a position names, in each use of the file; "" if it names none."""
-    found: dict[str, None] = {}
+    named = _named_before(document, cursor) if is_malformed(document) else _named(document, at)
+    texts = list(dict.fromkeys(text for one, analysis in named if (text := _describe(one, analysis))))
+    return RULE.join(filter(None, (*texts[:MAX_SHOWN], and_more(len(texts) - MAX_SHOWN))))
+
+
+def _named(document: Document, at: Position) -> Iterator[tuple[Occurrence, Analysis]]:
     for analysis in document.analyses:
         here = Occurrences(analysis).at(identity(document.path), at)
-        found |= dict.fromkeys(text for one in _innermost(here) if (text := _describe(one, analysis)))
-    texts = list(found)
-    return RULE.join(filter(None, (*texts[:MAX_SHOWN], and_more(len(texts) - MAX_SHOWN))))
+        yield from ((one, analysis) for one in _innermost(here))
+
+
+def _named_before(document: Document, cursor: Cursor) -> Iterator[tuple[Occurrence, Analysis]]:
+    """Yield what the word at a position names by its path, of the latest text that could be read."""
+    word = cursor.word.text or ""
+    if cursor.role is Role.KEY:
+        kinds = [kind for path, kind in DECLARING.items() if path == cursor.path]
+    else:
+        kinds = [kind for one in described_at(cursor.path) for kind in marked_names(one.schema)[1]]
+    for use in uses_of(document):
+        for kind in dict.fromkeys(kinds):
+            yield Occurrence(kind, use.prefix + word, word, cursor.word), use.analysis
 
 
 def _innermost(found: Sequence[Occurrence]) -> Iterator[Occurrence]:

@@ -1,0 +1,99 @@
+"""Runs a command again whenever one of the files changes that it read or looked for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection, Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
+
+from linkforge_compile.cli import UsageError
+from linkforge_compile.cli.reports import print_line, print_status
+from linkforge_compile.file_watcher import FileWatcher
+
+if TYPE_CHECKING:
+    import argparse
+
+_POLL_INTERVAL = 0.3
+"""Time between two polls of the files [s]."""
+
+_SETTLE_TIME = 0.05
+"""Time without another change before the next run [s], because an editor may write files in several steps."""
+
+
+class Watched(NamedTuple):
+    """What a run depends on.
+
+    `files` are named to the user. `poll` returns those that have changed since its last call, and may return others.
+    The deletion of one of the `outputs` is a reason for another run too.
+    """
+
+    files: Sequence[Path]
+    poll: Callable[[], tuple[Path, ...]]
+    outputs: Sequence[Path] = ()
+
+
+def repeat_on_changes(command: str, run: Callable[[], Watched], arguments: argparse.Namespace) -> NoReturn:
+    """Call `run`, and again after each change of what it returns, until Ctrl-C.
+
+    Raises:
+        UsageError: by the first call. One of a later call is reported, because the user may correct its cause.
+
+    """
+    watched = run()
+    while True:
+        print_status(f"watching {_listed(watched.files)}; Ctrl-C ends", arguments)
+        changed, gone = _wait(watched)
+        if changed:
+            print_status(f"{_listed(changed)} changed", arguments)
+        if gone:
+            print_status(f"{_listed(gone)} {'is' if len(gone) == 1 else 'are'} gone", arguments)
+        try:
+            watched = run()
+        except UsageError as error:
+            print_line(f"linkforge {command}: {error}")
+            watched = watched._replace(outputs=())
+
+
+def _wait(watched: Watched) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+    """Wait for changed files or deleted outputs, then until nothing else changes; return both."""
+    changed: tuple[Path, ...] = ()
+    gone: tuple[Path, ...] = ()
+    while not changed and not gone:
+        time.sleep(_POLL_INTERVAL)
+        changed = watched.poll()
+        gone = tuple(path for path in watched.outputs if not path.exists())
+    while True:
+        time.sleep(_SETTLE_TIME)
+        more = watched.poll()
+        if not more:
+            return changed, gone
+        changed = tuple(dict.fromkeys((*changed, *more)))
+
+
+def _listed(paths: Sequence[Path]) -> str:
+    first, *others = paths
+    return f"{first} and {len(others)} more" if others else str(first)
+
+
+class SpecSearch:
+    """Detects specs that appear in folders or leave them, without a search while no folder changes."""
+
+    def __init__(self, find_folders: Callable[[], Iterable[Path]], find_specs: Callable[[], Collection[str]]) -> None:
+        self._find_folders, self._find_specs = find_folders, find_specs
+        # First, because it reports too many folders as an error of usage.
+        self._specs = frozenset(find_specs())
+        self._folders = FileWatcher(find_folders())
+
+    def poll(self) -> tuple[Path, ...]:
+        """Return the specs that are new or gone since the last poll; the folders, where no search is possible."""
+        changed, began = self._folders.poll(), time.time_ns()
+        if not changed:
+            return ()
+        try:
+            specs = frozenset(self._find_specs())
+        except UsageError:
+            return changed
+        self._folders.track(self._find_folders(), began)
+        before, self._specs = self._specs, specs
+        return tuple(map(Path, sorted(specs ^ before)))

@@ -1,0 +1,108 @@
+"""The names that a place may refer to: those of the robot, or inside an override those in the module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.editor.completions import KEYS, NAMES, in_quotes_if_needed, marked_names
+from linkforge_compile.editor.vocabulary import Entries, entries_of, names_by_kind
+from linkforge_compile.expand import Instance
+from linkforge_compile.lsp.completion.context import Context
+from linkforge_compile.lsp.completion.items import REQUIRED, Kind, Offer
+from linkforge_compile.schema.descriptions import Described
+from linkforge_compile.syntax import YamlScalar
+
+_SECTIONS = {"link": ("links",), "joint": ("joints",), "material": ("materials",), "group": ("semantic", "groups")}
+"""Where an override has the names of a kind."""
+
+_STATES = ("semantic", "group_states")
+
+
+def kinds_of_names(branches: Iterable[Described], what: str) -> tuple[str, ...]:
+    """Return the kinds of parts that values (NAMES) or keys (KEYS) here name."""
+    marked = (marked_names(branch.schema) for branch in branches)
+    return tuple(dict.fromkeys(kind for found, kinds in marked if found == what for kind in kinds))
+
+
+def written(name: str, context: Context) -> str:
+    """Return a name as YAML has it at the position: in quotes where it needs them and has none."""
+    return name if context.is_quoted else in_quotes_if_needed(name)
+
+
+def offer_names(context: Context) -> list[Offer]:
+    """Return the names that a value here may be."""
+    kinds = kinds_of_names(context.branches, NAMES)
+    offers = [
+        Offer(name, written(name, context), Kind.Reference, REQUIRED, kind, sought=written(name, context))
+        for kind in kinds
+        for name in names_here(context, kind)
+    ]
+    return offers + _offer_states(context)
+
+
+def names_here(context: Context, kind: str) -> Sequence[str]:
+    """Return the names of a kind of parts, as the text of the position has them."""
+    override = override_at(context)
+    if override is not None:
+        entries: Entries | Sequence[str] = override[0]
+        for key in _SECTIONS.get(kind, (kind,)):
+            entries = entries.get(key, ()) if isinstance(entries, Mapping) else ()
+        return () if isinstance(entries, Mapping) else entries
+    return names_by_kind(context.robot).get(kind, ()) if context.robot else ()
+
+
+def _offer_states(context: Context) -> list[Offer]:
+    """Return the states of the group that is a key in a state of another group."""
+    path = context.cursor.path
+    if path[:2] != _STATES or context.robot is None:
+        return []
+    states = (state for state in context.robot.semantic.group_states if state.group == path[-1])
+    return [Offer(one.name, written(one.name, context), Kind.Reference, REQUIRED, "state") for one in states]
+
+
+def keys_that_name(context: Context) -> list[tuple[str, str]]:
+    """Return the names that keys here may be, each with its kind."""
+    override = override_at(context)
+    if override is not None:
+        entries: Entries | Sequence[str] = override[0]
+        for key in override[1]:
+            entries = entries.get(str(key), ()) if isinstance(entries, Mapping) else ()
+        return [] if isinstance(entries, Mapping) else [(name, "in the module") for name in entries]
+    kinds = kinds_of_names(context.branches, KEYS)
+    found = [(name, kind) for kind in kinds for name in names_here(context, kind)]
+    return [*_parts_of_group(context, context.robot), *found] if context.robot else found
+
+
+def _parts_of_group(context: Context, robot: Robot) -> list[tuple[str, str]]:
+    """Return the groups within the group of a state, whose states it may name."""
+    path = context.cursor.path
+    if path[:2] != _STATES or len(path) != len(_STATES) + 2:
+        return []
+    groups = (group for group in robot.semantic.groups if group.name == path[2])
+    return [(name, "group") for group in groups for name in group.subgroups]
+
+
+def override_at(context: Context) -> tuple[Entries, tuple[str | int, ...]] | None:
+    """Return the names that the override around the position can address, and the path in it; None for no override."""
+    path = context.cursor.path
+    root = context.readable.instance if context.readable else None
+    found: Entries | None = None
+    begin = 0
+    while path[begin : begin + 1] == ("modules",) and path[begin + 2 : begin + 3] == ("override",):
+        use = context.node((*path[: begin + 2], "use"))
+        root = _module(root, str(path[begin + 1]), use.text if isinstance(use, YamlScalar) else "")
+        found, begin = entries_of(root) if root else {}, begin + 3
+    return None if found is None else (found, path[begin:])
+
+
+def _module(instance: Instance | None, name: str, use: str) -> Instance | None:
+    """Return a module by its name, or the first that uses a file."""
+    modules = instance.modules if instance else ()
+    named = (one for one in modules if one.name == name)
+    return next(named, next((one for one in modules if use and _use_of(one) == use), None))
+
+
+def _use_of(module: Instance) -> str:
+    use = module.entry.node.child("use") if module.entry else None
+    return use.text if isinstance(use, YamlScalar) else ""
