@@ -65,6 +65,7 @@ class Editor:
         self.wait(self._client.stop())
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
+        self._loop.close()
 
     def wait(self, coroutine: Coroutine[object, object, _Answer]) -> _Answer:
         """Return the result of a coroutine of the client."""
