@@ -15,6 +15,7 @@ from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, XACRO_
 from linkforge_compile.diagnostics.fix import Edit, Fix, apply_edits, without_overlaps
 from linkforge_compile.diagnostics.grouping import ungrouped
 from linkforge_compile.roots import identity, top_of
+from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
@@ -172,9 +173,13 @@ def _key(diagnostic: Diagnostic) -> tuple[str, str, str]:
 
 
 def _write(texts: Mapping[Path, str], fixed: Mapping[Path, int], arguments: argparse.Namespace) -> None:
-    """Write the files and print how many problems were fixed in each."""
-    from linkforge_compile.cli.output import write_changed
+    """Write the files, or print their differences, and how many problems were fixed in each."""
+    from linkforge_compile.cli.output import unified, write_changed, write_to_stdout
 
-    write_changed(texts)
+    if arguments.diff:
+        for path, text in texts.items():
+            write_to_stdout(unified(on_one_line(str(path)), path.read_bytes().decode(), text, "fixed"))
+    else:
+        write_changed(texts)
     for path, number in fixed.items():
-        print_status(f"fixed {count(number, 'problem')} in {path}", arguments)
+        print_status(f"{'would fix' if arguments.diff else 'fixed'} {count(number, 'problem')} in {path}", arguments)

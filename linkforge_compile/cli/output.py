@@ -56,6 +56,15 @@ def write_json(text: str, output: str | None, arguments: argparse.Namespace) -> 
     write_document(text, path, arguments)
 
 
+def unified(name: str, before: str, after: str, how: str) -> str:
+    """Return the difference between a file as written and after a change, named by `how`, as `diff -u` prints it."""
+    from difflib import unified_diff
+
+    old, new = (text.splitlines(keepends=True) for text in (before, after))
+    shown = unified_diff(old, new, f"{name} (as written)", f"{name} ({how})")
+    return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in shown)
+
+
 def write_if_changed(path: Path, text: str) -> bool:
     """Write one file as `write_changed` does; return whether it was written."""
     return bool(write_changed({path: text}))

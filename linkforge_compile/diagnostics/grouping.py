@@ -30,6 +30,14 @@ def group_alike(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(_as_one(group) for group in groups.values())
 
 
+def group_at_places(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return a report for an editor, which marks each place: alike diagnostics are one only if they have one place."""
+    places: dict[Hashable, list[Diagnostic]] = {}
+    for one in ungrouped(diagnostics):
+        places.setdefault((one.code.id, one.span), []).append(one)
+    return tuple(one for alike in places.values() for one in group_alike(alike))
+
+
 def ungrouped(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield diagnostics with the members of each group in its place."""
     for one in diagnostics:

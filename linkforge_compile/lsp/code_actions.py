@@ -8,7 +8,7 @@ from lsprotocol import types
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.fix import Edit, Fix, without_overlaps
-from linkforge_compile.diagnostics.grouping import ungrouped
+from linkforge_compile.diagnostics.grouping import group_at_places, ungrouped
 from linkforge_compile.lsp.convert import Columns, uri_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.syntax.ignore_comments import ignore_fix
@@ -41,7 +41,7 @@ def _is_wanted(kind: str, only: Sequence[str] | None) -> bool:
 def _reported_in(document: Document) -> Iterator[Diagnostic]:
     """Yield the diagnostics in a text, each once, except those of an older version of it."""
     seen = set()
-    for one in (one for analysis in document.analyses for one in analysis.compilation.diagnostics):
+    for one in (one for analysis in document.analyses for one in group_at_places(analysis.compilation.diagnostics)):
         is_here = one.span is not None and document.holds(one.span) and one.span.file.text == document.file.text
         if is_here and str(one) not in seen:
             seen.add(str(one))

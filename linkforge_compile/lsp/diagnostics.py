@@ -10,6 +10,7 @@ from lsprotocol import types
 
 from linkforge_compile.analysis import Analysis
 from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.grouping import group_at_places
 from linkforge_compile.diagnostics.reports import without_repeats
 from linkforge_compile.lsp.convert import SEVERITIES, Columns, uri_of
 from linkforge_compile.resources import manual_folder
@@ -36,7 +37,7 @@ def _reports(analyses: Mapping[Path, Analysis]) -> Mapping[Path, Iterable[Diagno
     reports: dict[Path, list[Diagnostic]] = {}
     for root, analysis in analyses.items():
         reports[root] = []
-        for one in without_repeats(analysis.compilation.diagnostics):
+        for one in group_at_places(without_repeats(analysis.compilation.diagnostics)):
             key = str(one)
             if one.span is None or key not in seen:
                 reports[root].append(one)

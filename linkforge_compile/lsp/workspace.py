@@ -129,11 +129,24 @@ class Workspace:
 
     def keep(self, path: Path, analysis: Analysis, includers: Iterable[Path] = ()) -> None:
         """Keep the analysis of a spec; `includers` are the specs to analyse in its place if it is a part of them."""
-        self.analyses[identity(path)] = analysis
+        real = identity(path)
+        self.analyses[real] = analysis
         if analysis.instance is not None:
-            self.readable[identity(path)] = analysis
+            self.readable[real] = analysis
         if includers:
-            self._includers[identity(path)] = tuple(includers)
+            self._includers[real] = tuple(includers)
+        self._note_includes(path, analysis)
+
+    def _note_includes(self, path: Path, analysis: Analysis) -> None:
+        """Note of which open parts a spec is an includer, and of which it is none any more."""
+        real = identity(path)
+        for part in self.buffers:
+            known = {identity(one): one for one in self._includers.get(part, ())}
+            if part in self.analyses and is_part(self.analyses[part]) and _reads(analysis, part) and part != real:
+                self._includers[part] = tuple({**known, real: path}.values())
+            elif real in known and not _reads(analysis, part):
+                del self._includers[part]
+                self._stale.add(part)
 
     def document(self, path: Path, columns: Columns) -> Document | None:
         """Return what a feature sees of an open buffer; None if it is not open."""

@@ -207,7 +207,7 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
             fault = replace(fault, fixes=())  # the key would be written twice
         if space_like := find_like_space(first):
             fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
-            fault = fault.with_fix(replace_like_spaces(space_like.file))
+            fault = fault.with_fix(replace_like_spaces(space_like.file, [entry.key.span.line for entry in entries]))
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
 
 

@@ -43,6 +43,7 @@ _RENAMED_KEYS = (
     ("a parameter", "max", "maximum"),
     ("a module", "file", "use"),
     ("a cylinder", "height", "length"),
+    ("a material", "rgba", "color"),
     ("a joint", "child_link", "child"),
     ("a joint's limits", "min", "lower"),
     ("a joint's limits", "max", "upper"),
@@ -121,9 +122,8 @@ _INTENDED_WORDS = {word: intended for intended, words in _WORDS.items() for word
 
 def known_key_hint(owner: str, key: str) -> str:
     """Return the hint for a key in an object of this title, "" where the table has none."""
-    if new := renamed_key(owner, key):
-        return f"write '{new}'"
-    return _KEY_HINTS.get((owner, key)) or _KEY_HINTS.get(("", key), "")
+    new = renamed_key(owner, key)
+    return _KEY_HINTS.get((owner, key)) or (f"write '{new}'" if new else _KEY_HINTS.get(("", key), ""))
 
 
 def renamed_key(owner: str, key: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import syntax as codes
@@ -33,7 +34,8 @@ def space_after_dash(span: Span, text: str) -> Diagnostic:
 
 def indent_with_spaces(file: SourceFile) -> Fix | None:
     """Return the fix that writes spaces for the tabs that indent lines; safe if nothing else indents any line."""
-    indentations = [(line, found[0]) for line, found in _indented(file, _INDENTATION)]
+    matches = ((line, _INDENTATION.match(text)) for line, text in enumerate(file.lines, start=1))
+    indentations = [(line, found[0]) for line, found in matches if found]
     is_pure = all(_TABS.fullmatch(found) for _, found in indentations) and not any(
         line.startswith(" ") and line.strip() for line in file.lines
     )
@@ -47,20 +49,15 @@ def _spaces(indentation: str, *, is_pure: bool) -> str:
     return " " * (_STEP * len(indentation) if is_pure else len(indentation.expandtabs(_TAB_STOP)))
 
 
-def replace_like_spaces(file: SourceFile) -> Fix | None:
-    """Return the fix that writes spaces for what looks like spaces in the indentation of lines."""
+def replace_like_spaces(file: SourceFile, lines: Iterable[int] | None = None) -> Fix | None:
+    """Return the fix that writes spaces for what looks like spaces in the indentation of some lines; None for all."""
+    lines = range(1, len(file.lines) + 1) if lines is None else lines
     edits = [
         Edit(Span(file, line, 1, line, found.end() + 1), " " * found.end())
-        for line, found in _indented(file, _LIKE_SPACES)
-        if "\t" not in found[0]
+        for line in lines
+        if (found := _LIKE_SPACES.match(file.line(line))) and "\t" not in found[0]
     ]
     return Fix("indent with spaces", tuple(edits), is_safe=True) if edits else None
-
-
-def _indented(file: SourceFile, pattern: re.Pattern[str]) -> list[tuple[int, re.Match[str]]]:
-    """Return the numbers of the lines that begin with a pattern, and what it matches."""
-    found = ((number, pattern.match(line)) for number, line in enumerate(file.lines, start=1))
-    return [(number, match) for number, match in found if match]
 
 
 def indent_line(span: Span, spaces: int) -> Fix:

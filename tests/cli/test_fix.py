@@ -158,3 +158,32 @@ def test_values_of_another_format_are_written_as_ours(tmp_path: Path):
         "  hinge: {type: revolute, parent: base, child: rod, axis: [0, 1, 0], limits: "
         "{lower: -90 deg, upper: 90 deg, effort: 5, velocity: 2}}"
     )
+
+
+def test_a_color_of_urdf_is_written_as_ours(tmp_path: Path):
+    """Its value is wrong only once its key is right."""
+    paint = "materials: {red: {rgba: '1 0 0 1'}}\n"
+    spec = write(tmp_path / "arm.robot.yaml", PENDULUM + paint)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines()[0] == "fixed 2 problems in arm.robot.yaml"
+    assert spec.read_text() == PENDULUM + "materials: {red: {color: [1, 0, 0, 1]}}\n"
+
+
+def test_the_difference_is_shown_and_nothing_is_written(tmp_path: Path):
+    text = PENDULUM.replace("continuous", "Continuous")
+    spec = write(tmp_path / "arm.robot.yaml", text)
+    run = linkforge("check", "--fix", "--diff", cwd=tmp_path)
+    assert run.stdout.splitlines()[:2] == ["--- arm.robot.yaml (as written)", "+++ arm.robot.yaml (fixed)"]
+    changed = [line for line in run.stdout.splitlines()[2:] if line[0] in "+-"]
+    hinge = "  hinge: {type: continuous, parent: base, child: rod, axis: y}"
+    assert changed == [f"-{hinge.replace('continuous', 'Continuous')}", f"+{hinge}"]
+    assert run.stderr.splitlines()[0] == "would fix 1 problem in arm.robot.yaml"
+    assert spec.read_text() == text
+
+
+@pytest.mark.parametrize("options", [("--diff",), ("--fix", "--diff", "--format", "json")])
+def test_the_difference_is_that_of_fixes_as_text(tmp_path: Path, options: tuple[str, ...]):
+    write(tmp_path / "arm.robot.yaml", PENDULUM)
+    run = linkforge("check", *options, cwd=tmp_path)
+    assert run.returncode == 2
+    assert "--diff shows what --fix would change" in run.stderr

@@ -84,11 +84,19 @@ def test_readme_lists_the_settings_with_their_defaults() -> None:
     ]
 
 
-def test_problem_matcher_is_that_of_the_command() -> None:
-    matcher = json.loads((ROOT / ".github" / "linkforge-matcher.json").read_text("utf-8"))["problemMatcher"][0]
-    pattern = {name: value for name, value in CONTRIBUTED["problemPatterns"][0].items() if name != "name"}
-    assert pattern == matcher["pattern"][0]
-    assert CONTRIBUTED["problemMatchers"][0]["owner"] == matcher["owner"]
+def test_problem_matchers_are_those_that_init_writes() -> None:
+    tasks = json.loads((ROOT / "templates" / "init" / "tasks.json.j2").read_text("utf-8"))["tasks"]
+    pattern, *others = [without(pattern, "name") for pattern in CONTRIBUTED["problemPatterns"]]
+    contributed = [
+        {**without(matcher, "name", "label", "source", "applyTo"), "pattern": pattern}
+        for matcher in CONTRIBUTED["problemMatchers"]
+    ]
+    assert others == []
+    assert contributed == [task["problemMatcher"] for task in tasks]
+
+
+def without(values: dict[str, Any], *names: str) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if name not in names}
 
 
 def test_lock_file_names_no_registry() -> None:

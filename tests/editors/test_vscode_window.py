@@ -10,7 +10,7 @@ import shutil
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -31,7 +31,6 @@ NATIVE = ("@vscode/spdlog", "native-watchdog", "node-pty")
 """The parts of VS Code that are compiled, and without which it does not start."""
 
 SETTINGS = {
-    "linkforge.command": [sys.executable, "-m", "linkforge_compile"],
     "security.workspace.trust.enabled": False,
     "workbench.startupEditor": "none",
     "telemetry.telemetryLevel": "off",
@@ -57,19 +56,23 @@ def npm(folder: Path, *arguments: str) -> None:
 
 
 @contextmanager
-def code_server(modules: Path, extension: Path, folder: Path) -> Iterator[str]:
-    """Run VS Code with the extension and yield its address."""
-    (folder / "user" / "User").mkdir(parents=True)
-    (folder / "user" / "User" / "settings.json").write_text(json.dumps(SETTINGS), "utf-8")
+def code_server(modules: Path, extension: ZipFile, folder: Path, linkforge: Sequence[str]) -> Iterator[str]:
+    """Run VS Code with the extension, which starts a command, and yield its address."""
+    assert extension.filename
+    # VS Code ignores a command in the settings of a user whose files are on another machine.
+    for name, settings in ("User", SETTINGS), ("Machine", {"linkforge.command": linkforge}):
+        (folder / "user" / name).mkdir(parents=True)
+        (folder / "user" / name / "settings.json").write_text(json.dumps(settings), "utf-8")
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"127.0.0.1:{free.getsockname()[1]}"
     command = [program("node"), str(modules / "code-server" / "out" / "node" / "entry.js")]
     command += ["--config", str(folder / "config.yaml"), "--user-data-dir", str(folder / "user")]
     command += ["--extensions-dir", str(folder / "extensions"), "--disable-telemetry", "--disable-update-check"]
-    subprocess.run([*command, "--install-extension", str(extension)], check=True, capture_output=True, timeout=60)
+    subprocess.run([*command, "--install-extension", extension.filename], check=True, capture_output=True, timeout=60)
     run = [*command, "--auth", "none", "--bind-addr", address]
-    with subprocess.Popen(run, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+    environment = {**os.environ, "PATH": "/usr/bin:/bin"}  # with no linkforge
+    with subprocess.Popen(run, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
         assert server.stdout
         assert any("HTTP server listening" in line for line in server.stdout)
         yield f"http://{address}/"
@@ -91,11 +94,31 @@ def test_shows_problems_completions_and_colors(packed: ZipFile, modules: Path, t
     folder = robots / "examples" / "09_mobile_manipulator"
     spec = folder / "mobile_manipulator.robot.yaml"
     spec.write_text(spec.read_text("utf-8").replace("parent: torso", "parent: torsso", 1), "utf-8")
-    assert packed.filename
-    with code_server(modules, Path(packed.filename), tmp_path / "editor") as url:
-        picture = tmp_path / "window.png"
-        seen = look(f"{url}?folder={folder}", modules, picture, spec.name, "\njoints:\n  new: {type: fixed, child: tor")
-    assert seen["language"] == "LinkForge Robot"
+    typed = "\njoints:\n  new: {type: fixed, child: tor"
+    with code_server(modules, packed, tmp_path / "editor", [sys.executable, "-m", "linkforge_compile"]) as url:
+        seen = look(f"{url}?folder={folder}", modules, tmp_path / "window.png", spec.name, "language", typed)
+    assert seen["name"] == "LinkForge Robot"
     assert any("no link named 'torsso'; did you mean 'torso'?" in problem for problem in seen["problems"])
     assert any(label.startswith("torso") for label in seen["offered"])
     assert "side" in seen["tokens"], "$(side.name) is highlighted as an expression"
+
+
+MISSING = "import sys; sys.exit('linkforge: error: the language server needs pygls')"
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ([], "LinkForge's compiler is not installed: pip install 'linkforge-compile[lsp]'"),
+        (["/nowhere/linkforge"], "'/nowhere/linkforge lsp' cannot be started: spawn /nowhere/linkforge ENOENT"),
+        ([sys.executable, "-c", MISSING], "ended with exit code 1: linkforge: error: the language server needs pygls"),
+    ],
+    ids=["no compiler", "no such command", "no extra"],
+)
+def test_says_why_the_server_does_not_start(
+    packed: ZipFile, modules: Path, tmp_path: Path, command: Sequence[str], message: str
+) -> None:
+    (tmp_path / "arm.robot.yaml").write_text("linkforge: 1\nname: arm\n", "utf-8")
+    with code_server(modules, packed, tmp_path / "editor", command) as url:
+        seen = look(f"{url}?folder={tmp_path}", modules, tmp_path / "window.png", "arm.robot.yaml", "message")
+    assert [shown for shown in seen["messages"] if message in shown] == seen["messages"]

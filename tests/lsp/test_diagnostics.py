@@ -110,6 +110,19 @@ def test_a_part_without_a_name_is_checked_with_the_spec_that_includes_it(editor:
     assert "LF4102" in codes(editor.published(whole, bool))
 
 
+def test_a_part_that_is_included_no_more_is_a_spec_without_a_name(editor: Editor, tmp_path: Path):
+    part, whole = tmp_path / "links.robot.yaml", tmp_path / "arm.robot.yaml"
+    part.write_text("linkforge: 1\nlinks: {tip: {}}\n")
+    including = ARM.replace("  tip: {}\n", "").replace("links:", "include: [links.robot.yaml]\nlinks:")
+    whole.write_text(including)
+    editor.open(part)
+    assert editor.diagnostics(part) == []
+    editor.open(whole, ARM)
+    assert codes(editor.published(part, bool)) == ["LF2003"]
+    editor.open(whole, including)
+    assert editor.published(part, lambda found: not found) == []
+
+
 def test_a_file_that_changes_on_disk_is_read_again(editor: Editor, tmp_path: Path):
     arm, cell = tmp_path / "arm.robot.yaml", tmp_path / "cell.robot.yaml"
     editor.open(cell, CELL)
@@ -126,3 +139,15 @@ def test_a_closed_file_loses_its_diagnostics(editor: Editor, tmp_path: Path):
     assert editor.diagnostics(file)
     editor.close(file)
     assert editor.published(file, lambda found: not found) == []
+
+
+def test_each_place_of_a_fault_that_many_parts_have_is_marked(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    axis = "axis: z, limits: {effort: 1, velocity: 1, lower: 0, upper: 1}, mimic: {joint: knee}"
+    text = ARM.replace("  tip: {}\n", "  tip: {}\n  foot: {}\n  f0: {}\n  f1: {}\n")
+    text += "  knee: {type: fixed, parent: tip, child: foot}\n"
+    text += "".join(f"  m{n}: {{type: revolute, parent: tip, child: f{n}, {axis}}}\n" for n in range(2))
+    editor.open(file, text)
+    file.write_text(text)
+    report = check_file(file).diagnostics
+    assert len(editor.diagnostics(file)) == sum(len(one.members) or 1 for one in report) > len(report)

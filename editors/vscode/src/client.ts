@@ -40,10 +40,11 @@ export class Compiler {
       void this.report(`LinkForge's compiler is not installed: ${INSTALL}`);
       return;
     }
+    this.output.info(`starting ${command.join(" ")} lsp`);
     const server = new ServerProcess(command, vscode.workspace.workspaceFolders?.[0]?.uri.fsPath);
     const options: LanguageClientOptions = {
       documentSelector: [{ scheme: "file", language: "linkforge" }],
-      synchronize: { fileEvents: this.files },
+      synchronize: { fileEvents: this.files, configurationSection: "linkforge" },
       diagnosticCollectionName: "linkforge", // the owner of the problem matcher: no problem is listed twice
       outputChannel: this.output,
       initializationOptions: serverSettings(),
@@ -51,16 +52,17 @@ export class Compiler {
       errorHandler: {
         error: (...parameters) => usual.error(...parameters),
         // One that ends before it has started would end again.
-        closed: () => (this.client ? usual.closed() : { action: CloseAction.DoNotRestart, handled: true }),
+        closed: () => (client.hasStarted ? usual.closed() : { action: CloseAction.DoNotRestart, handled: true }),
       },
     };
-    const client = new LanguageClient("linkforge", "LinkForge", () => server.start(), options);
+    const client = new SpecClient("linkforge", "LinkForge", () => server.start(), options);
     const usual = client.createDefaultErrorHandler();
     try {
       await client.start();
+      client.hasStarted = true;
       this.client = client;
     } catch (error) {
-      void this.report((await server.failure()) ?? `${command.join(" ")}: ${String(error)}`);
+      void this.report(await server.failure(error));
     }
   }
 
@@ -84,12 +86,21 @@ export class Compiler {
   }
 }
 
+/** Shows no error before the server has started, because `Compiler` reports why it does not. */
+class SpecClient extends LanguageClient {
+  hasStarted = false;
+
+  override error(message: string, data?: unknown, showNotification: boolean | "force" = true): void {
+    super.error(message, data, this.hasStarted && showNotification);
+  }
+}
+
 /** Return the settings that the server reads. */
 function serverSettings(): object {
   const settings = vscode.workspace.getConfiguration("linkforge");
   const packages = Object.entries(settings.get<Record<string, string>>("packages", {}));
   return {
     packages: Object.fromEntries(packages.map(([name, path]) => [name, expandPath(path)])),
-    inlayHints: settings.get<boolean>("inlayHints", false),
+    inlayHints: settings.get<object>("inlayHints", {}),
   };
 }

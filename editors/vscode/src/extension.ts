@@ -32,7 +32,7 @@ async function start(context: vscode.ExtensionContext, output: vscode.LogOutputC
   context.subscriptions.push(
     vscode.tasks.registerTaskProvider("linkforge", new Tasks()),
     vscode.workspace.onDidChangeConfiguration((change) => {
-      if (["command", "packages", "inlayHints"].some((name) => change.affectsConfiguration(`linkforge.${name}`))) {
+      if (["command", "packages"].some((name) => change.affectsConfiguration(`linkforge.${name}`))) {
         restart();
       }
     }),

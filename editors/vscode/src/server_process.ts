@@ -24,17 +24,17 @@ export class ServerProcess {
     return this.child;
   }
 
-  /** Return why the process has ended, with the last line that it wrote; undefined if it runs. */
-  async failure(): Promise<string | undefined> {
+  /** Return why it cannot be used: how the process ended, with the last line that it wrote, else the error of a call. */
+  async failure(error: unknown): Promise<string> {
     const child = this.child;
-    if (!child || child.pid === undefined) {
-      return undefined;
-    }
-    if (child.exitCode === null && child.signalCode === null) {
+    if (child?.pid !== undefined && child.exitCode === null && child.signalCode === null) {
       await Promise.race([once(child, "close"), setTimeout(1_000)]); // its streams are closed a moment earlier
     }
-    const status = child.signalCode ?? (child.exitCode === null ? undefined : `exit code ${child.exitCode}`);
-    const last = this.errors.trim().split("\n").at(-1);
-    return status && `'${[...this.command, "lsp"].join(" ")}' ended with ${status}: ${last || INSTALL}`;
+    const shown = `'${[...this.command, "lsp"].join(" ")}'`;
+    const status = child?.signalCode ?? (typeof child?.exitCode === "number" && `exit code ${child.exitCode}`);
+    if (child?.pid !== undefined && status) {
+      return `${shown} ended with ${status}: ${this.errors.trim().split("\n").at(-1) || INSTALL}`;
+    }
+    return `${shown} cannot be started: ${error instanceof Error ? error.message : String(error)}`;
   }
 }

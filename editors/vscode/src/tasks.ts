@@ -12,7 +12,10 @@ export class Tasks implements vscode.TaskProvider {
   async provideTasks(): Promise<vscode.Task[]> {
     const command = await findCommand();
     const folders = command ? (vscode.workspace.workspaceFolders ?? []) : [];
-    return folders.map((folder) => makeTask(command!, { type: "linkforge", args: ["check"] }, folder));
+    const offered = [["check"], ["check", "--watch"]];
+    return folders.flatMap((folder) =>
+      offered.map((args) => makeTask(command!, { type: "linkforge", args }, folder)),
+    );
   }
 
   async resolveTask(task: vscode.Task): Promise<vscode.Task | undefined> {
@@ -25,7 +28,10 @@ type Scope = vscode.WorkspaceFolder | vscode.TaskScope.Global | vscode.TaskScope
 
 function makeTask([program, ...first]: Command, definition: Definition, scope: Scope): vscode.Task {
   const execution = new vscode.ProcessExecution(program, [...first, ...definition.args]);
-  const task = new vscode.Task(definition, scope, definition.args.join(" "), "linkforge", execution, "$linkforge");
+  const isWatching = definition.args.includes("--watch") || definition.args[0] === "watch";
+  const matcher = isWatching ? "$linkforge-watch" : "$linkforge";
+  const task = new vscode.Task(definition, scope, definition.args.join(" "), "linkforge", execution, matcher);
+  task.isBackground = isWatching;
   task.group = vscode.TaskGroup.Build;
   return task;
 }

@@ -70,6 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--watch", action="store_true", help="check again whenever one of the files changes, until Ctrl-C"
     )
+    parser.add_argument("--diff", action="store_true", help="with --fix, print what would change, and write no file")
     add_spec_options(parser, variants_help="once more for another one, in the same report")
     add_format_options(parser)
     add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
@@ -144,6 +145,8 @@ def _find_specs(words: Sequence[str], arguments: argparse.Namespace) -> FoundSpe
         raise UsageError("several --variant take files, not standard input, which can be read once")
     if arguments.fix and "-" in found.specs:
         raise UsageError("--fix takes files, not standard input")
+    if arguments.diff and (not arguments.fix or arguments.diagnostics != "text"):
+        raise UsageError("--diff shows what --fix would change, and takes no other --format than text")
     return found
 
 

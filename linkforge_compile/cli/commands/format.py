@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from difflib import unified_diff
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import STDIN, add_outside_option, read_stdin
-from linkforge_compile.cli.output import write_changed, write_to_stdout
+from linkforge_compile.cli.output import unified, write_changed, write_to_stdout
 from linkforge_compile.cli.reports import add_report_options, print_failure, print_status, report
 from linkforge_compile.cli.specs import count, find_specs_of
 from linkforge_compile.roots import exists, is_file
@@ -60,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     changed = {source: text for source, text in formatted.items() if text != source.text}
     has_errors = report(sink.sorted(), arguments)
     if arguments.diff:
-        write_to_stdout("".join(_diff(source, text) for source, text in changed.items()))
+        write_to_stdout("".join(unified(one.shown, one.text, text, "formatted") for one, text in changed.items()))
     elif not arguments.check:
         _write(formatted)
     _print_status(formatted, changed, arguments)
@@ -92,13 +91,6 @@ def _read(spec: str, sink: Diagnostics) -> SourceFile | None:
     if source and source.is_xml:
         raise UsageError(f"takes specs in YAML, and '{source.shown}' is XML")
     return source
-
-
-def _diff(source: SourceFile, text: str) -> str:
-    """Return the difference between a file and its formatted text, as `diff -u` prints it."""
-    before, after = (one.splitlines(keepends=True) for one in (source.text, text))
-    shown = unified_diff(before, after, f"{source.shown} (as written)", f"{source.shown} (formatted)")
-    return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in shown)
 
 
 def _write(formatted: Mapping[SourceFile, str]) -> None:
