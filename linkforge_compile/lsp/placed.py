@@ -129,6 +129,11 @@ def _trees(instance: Instance) -> Iterator[tuple[_Path, YamlNode, YamlScalar | N
                 yield from _nodes(one.value, ("modules", instance.name, one.name), one.key)
 
 
+def leaves_in(tree: YamlNode) -> Iterator[tuple[_Path, YamlNode]]:
+    """Yield the scalars of a tree, and what an expression made, with their paths."""
+    return ((path, node) for path, node, _ in _nodes(tree, ()) if _is_leaf(node))
+
+
 def _is_leaf(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) or (isinstance(node.span, TracedSpan) and node.span.trace is not None)
 
