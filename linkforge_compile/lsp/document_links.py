@@ -50,9 +50,13 @@ def _paths(document: Document, user: SpecFile) -> Iterator[tuple[Span, str]]:
     written = ((path, node) for path, node in leaves_in(user.tree) if document.holds(node.span))
     computed = ((one.path, one.node) for one in placed_in(document, Position(1, 1), last) if one.key is None)
     for path, node in (*written, *computed):
-        is_text = isinstance(node, YamlScalar) and isinstance(node.value, str) and not has_expression(node.text)
-        if is_text and any(one.schema.get("title") == _FILE for one in described_at(path)):
+        if isinstance(node, YamlScalar) and _is_file(path, node):
             yield node.span, node.text
+
+
+def _is_file(path: tuple[str | int, ...], node: YamlScalar) -> bool:
+    is_path = isinstance(node.value, str) and not has_expression(node.text)
+    return is_path and any(one.schema.get("title") == _FILE for one in described_at(path))
 
 
 def _link(document: Document, user: SpecFile, loader: Loader, span: Span, text: str) -> types.DocumentLink | None:
