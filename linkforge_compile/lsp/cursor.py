@@ -184,6 +184,14 @@ def section_lines(file: SourceFile, line: int) -> tuple[int, int]:
     return first, last
 
 
+def lines_of_section(file: SourceFile, name: str) -> tuple[str, ...]:
+    """Return the lines of a section by its key; none if there is no such section."""
+    for number, text in enumerate(file.lines, start=1):
+        if text.startswith(name) and text[len(name) :].lstrip().startswith(":"):
+            return file.lines[number - 1 : section_lines(file, number)[1]]
+    return ()
+
+
 def section_names(file: SourceFile, line: int) -> tuple[str, ...]:
     """Return the keys of the sections of a file, but for one in a line."""
     lines = (text for number, text in enumerate(file.lines, start=1) if number != line and _SECTION.match(text))

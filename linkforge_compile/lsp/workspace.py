@@ -7,7 +7,7 @@ them that are in the folders of the workspace.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -77,6 +77,8 @@ class Workspace:
     generation: int = 0
     _stale: set[str] = field(default_factory=set)
     _includers: dict[str, tuple[Path, ...]] = field(default_factory=dict)
+    _changed: set[str] = field(default_factory=set)
+    """The files that changed since the latest analysis began, whose own files are known only once it ends."""
 
     def put(self, path: Path, version: int | None, text: str) -> None:
         """Open a buffer, or replace its text."""
@@ -101,10 +103,8 @@ class Workspace:
         """Mark the specs that read a file, or looked for it, as to be analysed again."""
         self.generation += 1
         real = identity(path)
-        for root, analysis in self.analyses.items():
-            read = (*analysis.compilation.files, *analysis.compilation.unread)
-            if real == root or any(identity(file) == real for file in read):
-                self._stale.add(root)
+        self._changed.add(real)
+        self._stale.update(root for root, one in self.analyses.items() if real == root or _depends(one, {real}))
 
     def roots(self) -> tuple[Path, ...]:
         """Return the specs to analyse: each buffer, or the specs that include it."""
@@ -125,12 +125,15 @@ class Workspace:
     def begin(self, path: Path) -> Settings:
         """Return the settings to analyse a spec with, which from now on is stale only by further changes."""
         self._stale.discard(identity(path))
+        self._changed.clear()
         return self.settings()
 
     def keep(self, path: Path, analysis: Analysis, includers: Iterable[Path] = ()) -> None:
         """Keep the analysis of a spec; `includers` are the specs to analyse in its place if it is a part of them."""
         real = identity(path)
         self.analyses[real] = analysis
+        if _depends(analysis, self._changed):
+            self._stale.add(real)
         if analysis.instance is not None:
             self.readable[real] = analysis
         if includers:
@@ -169,6 +172,11 @@ def is_spec(path: Path) -> bool:
 def is_part(analysis: Analysis) -> bool:
     """Whether a spec has no name, as a part that other specs include."""
     return any(one.code is MISSING_NAME for one in analysis.compilation.diagnostics)
+
+
+def _depends(analysis: Analysis, files: Container[str]) -> bool:
+    """Whether a spec read one of some files, or looked for it."""
+    return any(identity(file) in files for file in (*analysis.compilation.files, *analysis.compilation.unread))
 
 
 def _reads(analysis: Analysis, real: str) -> bool:

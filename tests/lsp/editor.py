@@ -28,8 +28,17 @@ def split_at_cursor(text: str) -> tuple[str, types.Position]:
 class Editor:
     """One server and the documents open in it; each method returns when the server has answered."""
 
-    def __init__(self, *folders: Path, options: dict[str, object] | None = None, python: str = sys.executable) -> None:
-        """Create an editor with folders open; `options` are those of the server, which `python` runs."""
+    def __init__(
+        self,
+        *folders: Path,
+        options: dict[str, object] | None = None,
+        python: str = sys.executable,
+        abilities: types.ClientCapabilities | None = None,
+    ) -> None:
+        """Create an editor with folders open; `options` are those of the server, which `python` runs.
+
+        `abilities` are those of the editor, none unless given.
+        """
         self._client = LanguageClient("editor", "1")
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -39,6 +48,7 @@ class Editor:
         self._folders = folders
         self._options = options
         self._python = python
+        self._abilities = abilities or types.ClientCapabilities()
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -51,9 +61,7 @@ class Editor:
         folders = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in self._folders]
         self.capabilities = self.wait(
             self._client.initialize_async(
-                types.InitializeParams(
-                    types.ClientCapabilities(), workspace_folders=folders, initialization_options=self._options
-                )
+                types.InitializeParams(self._abilities, workspace_folders=folders, initialization_options=self._options)
             )
         ).capabilities
         self._client.initialized(types.InitializedParams())
@@ -65,6 +73,7 @@ class Editor:
         self.wait(self._client.stop())
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
+        self._loop.close()
 
     def wait(self, coroutine: Coroutine[object, object, _Answer]) -> _Answer:
         """Return the result of a coroutine of the client."""

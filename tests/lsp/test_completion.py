@@ -62,3 +62,131 @@ def test_a_position_in_an_example(case: Case, examples: Editor):
         examples.open(file, accepted)
         codes = [str(one.code) for one in examples.diagnostics(file)]
         assert not [code for code in codes if code.startswith("LF1")] if not case.is_clean else not codes
+
+
+def labels_at(editor: Editor, file: Path, marked: str) -> list[str]:
+    """Return the labels offered at the ¦ of a text."""
+    return [item.label for item in completions(editor, file, *split_at_cursor(marked))]
+
+
+def test_an_editor_with_snippets_and_markdown_gets_both(tmp_path: Path):
+    item = types.ClientCompletionItemOptions(
+        snippet_support=True,
+        documentation_format=[types.MarkupKind.Markdown],
+        insert_text_mode_support=types.ClientCompletionItemInsertTextModeOptions([types.InsertTextMode.AsIs]),
+    )
+    completion = types.CompletionClientCapabilities(completion_item=item)
+    document = types.TextDocumentClientCapabilities(completion=completion)
+    file = tmp_path / "arm.robot.yaml"
+    with Editor(tmp_path, abilities=types.ClientCapabilities(text_document=document)) as editor:
+        found = completions(editor, file, *split_at_cursor("linkforge: 1\nname: arm\njoints:\n  elbow:\n    lim¦\n"))
+        [limits] = [item for item in found if item.label == "limits"]
+        [joint] = [
+            item
+            for item in completions(editor, file, *split_at_cursor("linkforge: 1\nname: arm\njoints:\n  ¦\n"))
+            if item.label == "fixed joint"
+        ]
+    assert isinstance(limits.text_edit, types.TextEdit)
+    assert limits.text_edit.new_text == "limits:\n      $0"
+    assert limits.insert_text_format is types.InsertTextFormat.Snippet
+    assert limits.insert_text_mode is types.InsertTextMode.AsIs
+    assert isinstance(limits.documentation, types.MarkupContent)
+    assert limits.documentation.kind is types.MarkupKind.Markdown
+    assert "```yaml\nlimits:" in limits.documentation.value
+    assert isinstance(joint.text_edit, types.TextEdit)
+    assert joint.text_edit.new_text.startswith("${1:joint_name}:\n    type: fixed\n    parent: ${2:base}\n")
+
+
+def test_required_keys_come_first_and_common_ones_last(editor: Editor, tmp_path: Path):
+    found = labels_at(editor, tmp_path / "arm.robot.yaml", "linkforge: 1\njoints:\n  elbow: {¦}\n")
+    assert found[:5] == ["type", "parent", "child", "origin", "axis"]
+    assert found[-5:] == ["extra", "extra_attributes", "extra_inside", "when", "for"]
+    typed = "linkforge: 1\njoints:\n  elbow: {type: revolute, ¦}\n"
+    assert labels_at(editor, tmp_path / "arm.robot.yaml", typed)[:3] == ["parent", "child", "limits"]
+
+
+def test_names_in_a_module_have_no_prefix_and_those_in_its_user_do(editor: Editor, tmp_path: Path):
+    arm, cell = tmp_path / "arm.robot.yaml", tmp_path / "cell.robot.yaml"
+    arm.write_text("linkforge: 1\nname: arm\nlinks: {base: {}}\n")
+    editor.open(arm)
+    editor.open(cell, "linkforge: 1\nname: cell\nlinks: {world: {}}\nmodules: {left: {use: arm.robot.yaml}}\n")
+    assert editor.diagnostics(arm) == []
+    assert editor.diagnostics(cell)
+    joint = "joints: {j: {type: fixed, parent: ¦}}\n"
+    assert labels_at(editor, arm, arm.read_text() + joint) == ["base"]
+    assert labels_at(editor, cell, f"linkforge: 1\nname: cell\n{joint}") == ["world", "left_base"]
+
+
+def test_arguments_of_a_xacro_are_offered(editor: Editor, tmp_path: Path):
+    xacro = (
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arm"><xacro:arg name="reach" default="1"/></robot>'
+    )
+    (tmp_path / "arm.xacro").write_text(xacro)
+    cell = tmp_path / "cell.robot.yaml"
+    text = "linkforge: 1\nname: cell\nmodules:\n  arm:\n    use: arm.xacro\n    with: {¦}\n"
+    editor.open(cell, text.replace("¦", ""))
+    editor.diagnostics(cell)
+    assert labels_at(editor, cell, text) == ["reach", "parameter"]
+
+
+def test_files_outside_of_what_a_spec_may_read_are_not_offered(editor: Editor, tmp_path: Path):
+    (tmp_path / "other" / "secret").mkdir(parents=True)
+    (tmp_path / "robot" / "meshes").mkdir(parents=True)
+    (tmp_path / "robot" / "package.xml").write_text("<package><name>arm</name></package>")
+    (tmp_path / "robot" / "meshes" / "hand.stl").write_bytes(b"")
+    (tmp_path / "robot" / "link").symlink_to(tmp_path / "other")
+    file = tmp_path / "robot" / "arm.robot.yaml"
+    text = "linkforge: 1\nname: arm\nlinks: {hand: {visual: {mesh: ¦}}}\n"
+    assert labels_at(editor, file, text) == ["meshes/", "package://"]
+    assert labels_at(editor, file, text.replace("¦", "../¦")) == []
+    assert labels_at(editor, file, text.replace("¦", "link/¦")) == []
+    assert labels_at(editor, file, text.replace("¦", "/¦")) == []
+    assert labels_at(editor, file, text.replace("¦", "meshes/¦")) == ["hand.stl"]
+    assert "arm/" in labels_at(editor, file, text.replace("¦", "package://¦"))
+    assert labels_at(editor, file, text.replace("¦", "package://arm/meshes/¦")) == ["hand.stl"]
+
+
+@pytest.mark.parametrize(
+    "text", ["¦", "¦\n", "# a ¦ comment", "{¦", "[¦", '"¦', "links: {a: $(¦", "- ¦", "a: |\n  text ¦", "\ufeffname: ¦"]
+)
+def test_a_strange_text_has_completions_or_none(text: str, editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    labels_at(editor, file, text)
+    assert "links" in labels_at(editor, file, "¦")
+
+
+def test_a_position_beyond_the_text_and_a_closed_document_end_nothing(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    document = editor.open(file, "linkforge: 1\n")
+    beyond = types.CompletionParams(document, types.Position(1000, 1000))
+    assert isinstance(editor.ask(lambda client: client.text_document_completion_async(beyond)), list)
+    editor.close(file)
+    assert editor.ask(lambda client: client.text_document_completion_async(beyond)) == []
+
+
+def test_a_text_that_was_never_readable_has_completions(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    text = "linkforge: 1\nname: [arm\nparameters: {reach: 1 m}\nlinks: {base: {}}\nframes: {tool: {parent: base}}\n"
+    assert labels_at(editor, file, text + "joints:\n  j: {parent: ¦}\nmaterials: ]\n") == ["base", "tool"]
+    assert "reach" in labels_at(editor, file, text + "joints:\n  j: {origin: [0, 0, $(¦)]}\nmaterials: ]\n")
+
+
+def test_a_part_has_the_names_and_parameters_of_the_spec_that_includes_it(editor: Editor, tmp_path: Path):
+    part, whole = tmp_path / "joints.robot.yaml", tmp_path / "arm.robot.yaml"
+    whole.write_text(
+        "linkforge: 1\nname: arm\ninclude: [joints.robot.yaml]\nparameters: {reach: 1 m}\nlinks: {base: {}}\n"
+    )
+    text = "linkforge: 1\nvariables: {half: $(reach / 2)}\njoints: {j: {type: fixed, parent: ¦}}\n"
+    editor.open(whole)
+    editor.open(part, text.replace("¦", "base"))
+    editor.diagnostics(part)
+    assert labels_at(editor, part, text) == ["base"]
+    assert {"reach", "half"} <= set(labels_at(editor, part, text.replace("¦", "$(¦)")))
+
+
+def test_items_of_a_block_list_are_names_that_it_does_not_have(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    text = "linkforge: 1\nname: arm\nlinks: {base: {}, tip: {}}\nsemantic:\n  groups:\n    arm:\n"
+    text += "      links:\n      - base\n"
+    assert labels_at(editor, file, text + "      - ¦\n")[:1] == ["tip"]
+    assert "base" not in labels_at(editor, file, text + "      - ¦\n")

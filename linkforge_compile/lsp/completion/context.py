@@ -11,7 +11,15 @@ from lsprotocol import types
 from linkforge_compile.analysis import Analysis, Settings
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.lsp.cursor import MARKER, Cursor, Role, closed, section_lines, section_names
+from linkforge_compile.lsp.cursor import (
+    MARKER,
+    Cursor,
+    Role,
+    closed,
+    lines_of_section,
+    section_lines,
+    section_names,
+)
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.schema.descriptions import Described, described_at
 from linkforge_compile.schema.shapes import node_at
@@ -88,9 +96,21 @@ class Context:
     def node(self, path: Sequence[str | int]) -> YamlNode | None:
         """Return what is written at a path now, or was when the text was last readable; None for nothing."""
         found = node_at(self._section, tuple(path)) if self._section else None
-        if found is not None or self.readable is None or self.readable.spec is None:
-            return found
-        return node_at(self.readable.spec.tree, tuple(path))
+        if found is None and path:
+            found = node_at(self._other_section(str(path[0])), tuple(path))
+        return found if found is not None or self.tree is None else node_at(self.tree, tuple(path))
+
+    def _other_section(self, name: str) -> YamlNode:
+        """Return the tree of another section of the text as written now, read alone; an empty one for none."""
+        if name not in self._others:
+            lines = lines_of_section(self.document.file, name)
+            text = SourceFile(self.document.file.name, "\n".join(lines), self.document.path)
+            self._others[name] = (read_data(text, Diagnostics(), {}) if lines else None) or YamlMap({}, text.whole)
+        return self._others[name]
+
+    @cached_property
+    def _others(self) -> dict[str, YamlNode]:
+        return {}
 
     @cached_property
     def around(self) -> Mapping[str, YamlNode]:
@@ -131,12 +151,19 @@ class Context:
         return self.readable.spec.tree if self.readable and self.readable.spec else None
 
     def sections(self, *names: str) -> Iterator[tuple[str, str, YamlNode]]:
-        """Yield the section, the name and the value of each entry of some sections of the file."""
+        """Yield the section, the name and the value of each entry of some sections, also in included files."""
         for section in names:
-            found = self.node((section,))
-            for entry in found if isinstance(found, YamlMap) else ():
-                if MARKER not in entry.name:
-                    yield section, entry.name, entry.value
+            written = self.node((section,))
+            known = self.tree.get(section) if self.tree else None
+            own = {entry.name: entry.value for entry in written} if isinstance(written, YamlMap) else {}
+            others = (
+                {entry.name: entry.value for entry in known if not self.document.holds(entry.key.span)}
+                if isinstance(known, YamlMap)
+                else {}
+            )
+            for name, value in {**others, **own}.items():
+                if MARKER not in name:
+                    yield section, name, value
 
 
 def _read_around(context: Context) -> YamlNode | None:

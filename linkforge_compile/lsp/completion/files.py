@@ -41,7 +41,7 @@ def offer_files(context: Context, text: str, endings: tuple[str, ...] = ()) -> l
     folder = _folder(context, start, roots, is_absolute=text.startswith("/"))
     if folder is None or not roots.hold(folder):
         return []
-    offers = [_offer(name, folder, begin, end) for name in _listed(folder, roots, endings)]
+    offers = [_offer(name, folder, begin, end) for name in _listed(folder, context.document.path, roots, endings)]
     package = Offer(_PACKAGE, _PACKAGE, Kind.Folder, KNOWN, "a file in a package", begin=begin)
     return offers if start else [*offers, package]
 
@@ -74,11 +74,12 @@ def _folder(context: Context, start: str, roots: Roots, *, is_absolute: bool) ->
     return follow(found, rest) if found else None
 
 
-def _listed(folder: Path, roots: Roots, endings: tuple[str, ...]) -> Iterable[str]:
+def _listed(folder: Path, own: Path, roots: Roots, endings: tuple[str, ...]) -> Iterable[str]:
+    """Yield the folders and files in a folder, without the open file itself."""
     for name in sorted(names_in(folder)):
         path = folder / name
         is_shown = is_folder(path) or not endings or name.lower().endswith(endings)
-        if is_shown and not name.startswith(".") and roots.hold(path):
+        if is_shown and not name.startswith(".") and path != own and roots.hold(path):
             yield name
 
 

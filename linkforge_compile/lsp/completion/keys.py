@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from linkforge_compile.editor.keys_by_type import keys_by_type
@@ -38,7 +39,7 @@ def _keys_of(branch: Described, context: Context) -> Iterator[Offer]:
     for key, schema in branch.keys.items():
         if key not in useless:
             inner = branch.describe(schema)
-            rank, text = _rank(key, inner), key_text(key, inner, context)
+            rank, text = _rank(key, inner, context), key_text(key, inner, context)
             offer = Offer(key, text, Kind.Property, rank, expected_of(inner), is_snippet=True)
             yield documented(offer, _whole(schema, inner))
 
@@ -62,14 +63,20 @@ def _useless(branch: Described, context: Context) -> frozenset[str]:
     return frozenset(key for types, keys in listed.items() if type_ in types for key in keys)
 
 
-def _rank(key: str, inner: tuple[Described, ...]) -> int:
+def _rank(key: str, inner: tuple[Described, ...], context: Context) -> int:
     if key in {*WORDS, *RAW}:
         return COMMON
-    return REQUIRED if any(_is_required(one.schema) for one in inner) else LIKELY
+    type_ = context.text_around.get("type", "")
+    return REQUIRED if any(_is_required(one.schema, type_) for one in inner) else LIKELY
 
 
-def _is_required(schema: Schema) -> bool:
-    return str(schema.get("description", "")).endswith("Required.")
+def _is_required(schema: Schema, type_: str) -> bool:
+    """Whether a key is required, be it in an object of a type only."""
+    found = _REQUIRED.search(str(schema.get("description", "")))
+    return found is not None and (found["types"] is None or type_ in found["types"].split())
+
+
+_REQUIRED = re.compile(r"Required(?: for (?P<types>[^.]*))?\.$")
 
 
 def _name(name: str, kind: str, context: Context) -> Offer:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.editor.completions import KEYS, NAMES, in_quotes_if_needed, marked_names
@@ -10,8 +10,9 @@ from linkforge_compile.editor.vocabulary import Entries, entries_of, names_by_ki
 from linkforge_compile.expand import Instance
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.items import REQUIRED, Kind, Offer
+from linkforge_compile.lsp.cursor import MARKER
 from linkforge_compile.schema.descriptions import Described
-from linkforge_compile.syntax import YamlScalar
+from linkforge_compile.syntax import YamlMap, YamlScalar
 
 _SECTIONS = {"link": ("links",), "joint": ("joints",), "material": ("materials",), "group": ("semantic", "groups")}
 """Where an override has the names of a kind."""
@@ -49,7 +50,18 @@ def names_here(context: Context, kind: str) -> Sequence[str]:
         for key in _SECTIONS.get(kind, (kind,)):
             entries = entries.get(key, ()) if isinstance(entries, Mapping) else ()
         return () if isinstance(entries, Mapping) else entries
-    return names_by_kind(context.robot).get(kind, ()) if context.robot else ()
+    known = names_by_kind(context.robot).get(kind, ()) if context.robot else ()
+    return [*dict.fromkeys((*known, *_written_names(context, kind)))]
+
+
+def _written_names(context: Context, kind: str) -> Iterator[str]:
+    """Yield the names of a kind as the text has them now, also one that was never readable."""
+    section = context.node(_SECTIONS[kind]) if kind in _SECTIONS else None
+    for entry in section if isinstance(section, YamlMap) else ():
+        if "$(" not in entry.name and MARKER not in entry.name:
+            yield entry.name
+    if kind == "link":
+        yield from (name for _, name, _ in context.sections("frames") if "$(" not in name)
 
 
 def _offer_states(context: Context) -> list[Offer]:
