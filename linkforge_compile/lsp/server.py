@@ -33,6 +33,13 @@ from linkforge_compile.roots import identity
 
 _Result = TypeVar("_Result")
 
+_WATCHING = types.Registration(
+    "files",
+    types.WORKSPACE_DID_CHANGE_WATCHED_FILES,
+    types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher("**/*")]),
+)
+"""A spec depends on specs, robots of vendors, data and meshes, whatever their endings; only theirs analyse again."""
+
 DEBOUNCE = 0.1
 """Time without a change before specs are analysed [s]."""
 
@@ -136,6 +143,13 @@ def _add_synchronization(server: SpecServer) -> None:
         packages = options.get("packages", {}) if isinstance(options, dict) else {}
         server.specs.packages = {name: Path(place) for name, place in packages.items()}
         server.hints = HintOptions.of(options)
+
+    @server.feature(types.INITIALIZED)
+    async def _initialized(_params: types.InitializedParams) -> None:
+        workspace = server.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching and watching.dynamic_registration:
+            await server.client_register_capability_async(types.RegistrationParams([_WATCHING]))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     async def _opened(params: types.DidOpenTextDocumentParams) -> None:
