@@ -12,7 +12,7 @@ from linkforge_compile.core.models.manager_parameters import (
     CONTROLLER,
     HARDWARE,
     SourcedText,
-    is_name_of_controller,
+    is_of_controller,
     listed_names,
 )
 from linkforge_compile.diagnostics.codes.names import (
@@ -60,11 +60,11 @@ def check_names_of_manager(robot: Robot, unresolved: UnresolvedNames) -> Iterato
     manager = robot.controllers.get(MANAGER)
     if manager is None:
         return
-    loaded = (name for name, value in manager.parameters.items() if is_name_of_controller(name, value))
+    loaded = [name for name, value in manager.parameters.items() if is_of_controller(value)]
     stated = [one.name for one in robot.controllers if one.name != MANAGER]
     known = {
         HARDWARE: [system.name for system in robot.ros2_controls],
-        CONTROLLER: [*stated, *(name.partition(".")[0] for name in loaded)] if stated else [],
+        CONTROLLER: [*stated, *loaded] if stated else [],
     }
     for kind, names in known.items():
         listed = [name for its, name in listed_names(manager.parameters) if its == kind]

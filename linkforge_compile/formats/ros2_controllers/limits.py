@@ -77,10 +77,9 @@ def _check_gains(controller: Controller) -> Iterator[Diagnostic]:
     if controller.type != TRAJECTORY or commands not in {("effort",), ("velocity",)} or is_open:
         return
     gains = parameters.get("gains")
-    with_gains = {name.split(".")[0] for name in gains} if isinstance(gains, Mapping) else set()
-    dotted = {name.split(".")[1] for name in parameters if name.startswith("gains.")}
     for joint in controller.joints:
-        if joint not in with_gains | dotted:
+        # A name with dots is nested maps.
+        if not isinstance(gains, Mapping) or joint.partition(".")[0] not in gains:
             yield NO_GAINS.at(controller.source, controller=controller.name, joint=joint, interface=commands[0])
 
 

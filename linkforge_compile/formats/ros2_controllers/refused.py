@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field, stated_field
-from linkforge_compile.core.models.manager_parameters import loaded_class, place_of_parameter
+from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import (
     NO_NAME_OF_A_NODE,
@@ -72,10 +72,12 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
 
 def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
     """The class of a controller is not another one in the parameters of the manager."""
-    loaded = loaded_class(manager.parameters, controller.name)
-    if loaded and loaded.type != controller.type:
-        notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
-        place, owner = place_of_parameter(manager.source, "parameters", *loaded.path), f" of '{MANAGER}'"
-        yield STATED_TWICE.at(
-            *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
-        )
+    stated = manager.parameters.get(controller.name)
+    for key, value in stated.items() if isinstance(stated, Mapping) else ():
+        if key == "type" and value != controller.type:
+            notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
+            place = place_of_parameter(manager.source, "parameters", controller.name, key)
+            owner = f" of '{MANAGER}'"
+            yield STATED_TWICE.at(
+                *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
+            )
