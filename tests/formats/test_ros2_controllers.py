@@ -755,6 +755,7 @@ def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
     assert found.code.id == "LF4111"
     assert "'hardware_components_initial_state.shutdown_on_initial_state_failure'" in found.message
     assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
+    assert [note.message for note in found.notes] == ["in module 'left' it is false", "in module 'right' it is true"]
 
 
 def test_derived_values_lead_to_what_they_follow_from():
