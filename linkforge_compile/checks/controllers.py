@@ -6,7 +6,13 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
-from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER
+from linkforge_compile.core.models.controller import (
+    DEFAULT_BROADCASTER,
+    DEFAULT_TRAJECTORY,
+    JOINT_FIELDS,
+    MANAGER,
+    default_name,
+)
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
 from linkforge_compile.core.models.manager_parameters import (
     CONTROLLER,
@@ -61,10 +67,12 @@ def check_names_of_manager(robot: Robot, unresolved: UnresolvedNames) -> Iterato
     if manager is None:
         return
     loaded = [name for name, value in manager.parameters.items() if is_of_controller(value)]
+    groups = [group.name for group in robot.semantic.groups] if robot.has_semantic else []
+    defaults = (DEFAULT_BROADCASTER, DEFAULT_TRAJECTORY, *map(default_name, groups))
     stated = [one.name for one in robot.controllers if one.name != MANAGER]
     known = {
         HARDWARE: [system.name for system in robot.ros2_controls],
-        CONTROLLER: [*stated, *loaded] if stated else [],
+        CONTROLLER: [*(stated or defaults), *loaded],
     }
     for kind, names in known.items():
         listed = [name for its, name in listed_names(manager.parameters) if its == kind]

@@ -791,6 +791,24 @@ def test_the_manager_has_no_other_class_of_a_controller(parameters: str):
     ]
 
 
+@pytest.mark.parametrize(("name", "value"), [("own", "5"), ("update_rate", "3")])
+def test_the_manager_has_no_value_under_the_name_of_a_controller(name: str, value: str):
+    manager = f"controller_manager: {{parameters: {{{name}: {value}}}}}"
+    assert reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}, {manager}}}\n") == [
+        f"LF7621 controller '{name}' has '{name}' in `parameters` of 'controller_manager', and `controllers` for the "
+        "same; remove one of them"
+    ]
+
+
+def test_a_fallback_of_a_robot_with_default_controllers_exists():
+    fallbacks = "[arm_controler, arm_controller, joint_state_broadcaster]"
+    manager = f"controller_manager: {{parameters: {{arm_controller: {{fallback_controllers: {fallbacks}}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}controllers: {{{manager}}}\n"
+    (found,) = (one for one in compile_text(text).diagnostics if one.code.id == "LF4112")
+    assert found.span
+    assert found.span.text == "arm_controler"
+
+
 @pytest.mark.parametrize(
     "parameters", ["own: {type: a/B, params_file: a.yaml}", "own.type: a/B, own.params_file: a.yaml"]
 )

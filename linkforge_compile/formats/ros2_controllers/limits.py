@@ -50,8 +50,11 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
     yield from check_refused(robot, controllers)
     if manager := robot.controllers.get(MANAGER):
-        loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
-        yield from check_parameters(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
+        names = {one.name for one in controllers}
+        maps = {key: value for key, value in manager.parameters.items() if isinstance(value, Mapping)}
+        others = {key: value for key, value in manager.parameters.items() if key not in {*maps, *names}}  # LF7621
+        loaded = {name for name, value in maps.items() if "type" in value}
+        yield from check_parameters(manager.with_fields(parameters={**maps, **others}), MANAGER, names | loaded)
     for controller in controllers:
         if intended := misspelled_class(controller.type):
             yield MISSPELLED_CLASS.at(controller.source, "type", type=controller.type, intended=intended)

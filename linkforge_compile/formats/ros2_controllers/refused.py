@@ -38,6 +38,7 @@ def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Dia
     for controller in completed:
         yield from _check_name(controller)
         if manager:
+            yield from _check_names_of_values(manager, controller)
             yield from _check_loaded_class(manager, controller)
         if not has_faulty_names(robot, controller):
             yield from _check_single_fields(controller)
@@ -68,6 +69,16 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
             notes = [Note(f"`{stated}` is here", controller.source.at(stated))] if controller.source else []
             facts = {"controller": controller.name, "parameter": name, "field": stated}
             yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, owner="", **facts)
+
+
+def _check_names_of_values(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
+    """The manager has a map under the name of a controller, and no value, for which there is no place in the file."""
+    for key, value in manager.parameters.items():
+        if key == controller.name and value is not None and not isinstance(value, Mapping):
+            notes = [Note("the controller is here", controller.source.span)] if controller.source else []
+            place = place_of_parameter(manager.source, "parameters", key)
+            owner = f" of '{MANAGER}'"
+            yield STATED_TWICE.at(*place, notes=notes, controller=key, parameter=key, owner=owner, field="controllers")
 
 
 def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
