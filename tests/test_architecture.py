@@ -38,7 +38,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
-    "export_spec": "source diagnostics units syntax core expand",
+    "export_spec": "source diagnostics units syntax core expand listing",
     "compare": "source units core formats",
     "collisions": "source diagnostics syntax core checks roots",
     "analysis": (

@@ -9,8 +9,8 @@ the sink.
 
 What each module knows; it imports only those above it:
 
-    instance          the Instance that a use of a file becomes
     values            a node <-> its value in expressions; where a value was written
+    instance          the Instance that a use of a file becomes
     evaluate          a node with expressions -> its value in one scope
     expand_tree       a tree with expressions, `for` and `when` -> one without
     arguments         what the user sets -> Arguments; the variants of a file

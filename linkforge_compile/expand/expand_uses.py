@@ -95,6 +95,7 @@ class _Expander:
             packages=scope.packages,
             defaults=defaults,
             overrides=tuple(one.patch for one in use.entry.overrides) if use.entry else (),
+            names=scope.evaluator,
         )
 
     def _expand_module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.limits import Budget, Limit
@@ -14,6 +14,9 @@ from linkforge_compile.load.locations import FindMesh, no_mesh
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.span import Located, ModuleUse
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
+
+if TYPE_CHECKING:
+    from linkforge_compile.expand.values import Evaluation
 
 COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
 """The sections that do not describe the robot but help to compute it."""
@@ -46,6 +49,7 @@ class Instance:
     - `packages`: the package folders that the file declares.
     - `defaults`: the computed defaults, None for none; the tree has them merged in.
     - `overrides`: the computed overrides for this use, which the tree has merged in, with the names in its file.
+    - `names`: evaluates the names that the file declares; None for a file that declares none.
     """
 
     name: str
@@ -61,6 +65,7 @@ class Instance:
     packages: Mapping[str, Path] = field(default_factory=dict)
     defaults: YamlMap | None = None
     overrides: tuple[YamlMap, ...] = ()
+    names: Evaluation | None = None
 
     @property
     def with_modules(self) -> Iterator[Instance]:

@@ -221,20 +221,31 @@ def find_name_origins(node: YamlNode) -> tuple[NameOrigin, ...]:
     return tuple(_names_of(node, None, set()))
 
 
+def find_name_origin(name: str, tree: Evaluation) -> NameOrigin | None:
+    """Return the origin of a name in the scope of an evaluator; None if nothing sets it."""
+    return _name_origin(name, tree, set())
+
+
 def _names_of(node: YamlNode, writer: Evaluation | None, seen: set[Setting]) -> Iterator[NameOrigin]:
     for name, tree in _names_in(node, writer):
-        setting = tree.settings.get(name)
-        if setting is None or setting in seen:
-            continue
-        seen.add(setting)
-        value = tree.scope.lookup(name, Diagnostics())
-        shown = "unknown" if value is FAULT else describe(value)
-        if isinstance(value, str):
-            shown = shown if len(shown) < _LONGEST_TEXT else f"{shown[:_LONGEST_TEXT]}…'"
-        else:
-            shown = shown.strip("'")
-        within = tuple(_names_of(setting.named_by or setting.node, setting.tree, seen))
-        yield NameOrigin(name, shown, setting, within)
+        if origin := _name_origin(name, tree, seen):
+            yield origin
+
+
+def _name_origin(name: str, tree: Evaluation, seen: set[Setting]) -> NameOrigin | None:
+    """Return the origin of a name; None if nothing sets it, and for one of the settings `seen`, which grow."""
+    setting = tree.settings.get(name)
+    if setting is None or setting in seen:
+        return None
+    seen.add(setting)
+    value = tree.scope.lookup(name, Diagnostics())
+    shown = "unknown" if value is FAULT else describe(value)
+    if isinstance(value, str):
+        shown = shown if len(shown) < _LONGEST_TEXT else f"{shown[:_LONGEST_TEXT]}…'"
+    else:
+        shown = shown.strip("'")
+    within = tuple(_names_of(setting.named_by or setting.node, setting.tree, seen))
+    return NameOrigin(name, shown, setting, within)
 
 
 def _names_in(node: YamlNode, tree: Evaluation | None) -> Iterator[tuple[str, Evaluation]]:

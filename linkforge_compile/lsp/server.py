@@ -20,8 +20,11 @@ from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
+from linkforge_compile.lsp.document_links import document_links
 from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.formatting import format_edits
+from linkforge_compile.lsp.hover import hover
+from linkforge_compile.lsp.inlay_hints import HintOptions, inlay_hints
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.symbols import find_symbols, outline
@@ -29,6 +32,13 @@ from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_
 from linkforge_compile.roots import identity
 
 _Result = TypeVar("_Result")
+
+_WATCHING = types.Registration(
+    "files",
+    types.WORKSPACE_DID_CHANGE_WATCHED_FILES,
+    types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher("**/*")]),
+)
+"""A spec depends on specs, robots of vendors, data and meshes, whatever their endings; only theirs analyse again."""
 
 DEBOUNCE = 0.1
 """Time without a change before specs are analysed [s]."""
@@ -46,6 +56,7 @@ class SpecServer(LanguageServer):
         self.specs = Workspace()
         self._analyser = ThreadPoolExecutor(max_workers=1, thread_name_prefix="analysis")
         self._published: set[str] = set()
+        self.hints = HintOptions()
         self._analysing = asyncio.Lock()
 
     @property
@@ -117,6 +128,8 @@ def make_server() -> SpecServer:
     _add_completion(server)
     _add_navigation(server)
     _add_rename(server)
+    _add_hover(server)
+    _add_hints(server)
     _add_actions(server)
     return server
 
@@ -129,6 +142,14 @@ def _add_synchronization(server: SpecServer) -> None:
         options = params.initialization_options
         packages = options.get("packages", {}) if isinstance(options, dict) else {}
         server.specs.packages = {name: Path(place) for name, place in packages.items()}
+        server.hints = HintOptions.of(options)
+
+    @server.feature(types.INITIALIZED)
+    async def _initialized(_params: types.InitializedParams) -> None:
+        workspace = server.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching and watching.dynamic_registration:
+            await server.client_register_capability_async(types.RegistrationParams([_WATCHING]))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     async def _opened(params: types.DidOpenTextDocumentParams) -> None:
@@ -229,6 +250,36 @@ def _add_rename(server: SpecServer) -> None:
         at, settings = document.place(params.position), server.specs.settings()
         with _refusals():
             return await server.in_thread(partial(rename, document, at, params.new_name, settings))
+
+
+def _add_hover(server: SpecServer) -> None:
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    async def _hover(params: types.HoverParams) -> types.Hover | None:
+        document = await server.analysed(params.text_document.uri)
+        settings = server.specs.settings()
+        return await server.in_thread(partial(hover, document, params.position, settings)) if document else None
+
+
+def _add_hints(server: SpecServer) -> None:
+    @server.feature(types.WORKSPACE_DID_CHANGE_CONFIGURATION)
+    def _configure(params: types.DidChangeConfigurationParams) -> None:
+        settings = params.settings
+        if isinstance(settings, dict) and "linkforge" in settings:
+            server.hints = HintOptions.of(settings["linkforge"])
+
+    @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
+    async def _hint(params: types.InlayHintParams) -> list[types.InlayHint]:
+        document = await server.analysed(params.text_document.uri)
+        if document is None:
+            return []
+        start, end = document.place(params.range.start), document.place(params.range.end)
+        return await server.in_thread(partial(inlay_hints, document, start, end, server.hints))
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
+    async def _link(params: types.DocumentLinkParams) -> list[types.DocumentLink]:
+        document = await server.analysed(params.text_document.uri)
+        settings = server.specs.settings()
+        return await server.in_thread(partial(document_links, document, settings)) if document else []
 
 
 @contextmanager

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import formats
-from linkforge_compile.cli import INTERRUPTED
-from linkforge_compile.cli.commands import watch
+from linkforge_compile.cli import INTERRUPTED, watching
 from linkforge_compile.cli.main import main
+from linkforge_compile.cli.watching import Watched
 from linkforge_compile.formats.environment import xml_endings
 from linkforge_compile.formats.format import Format, TemplateFormat
 from linkforge_compile.resources import format_templates
@@ -292,14 +292,15 @@ def test_deps_without_a_folder_names_the_files_here(capsys: pytest.CaptureFixtur
 def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.MonkeyPatch):
     waited: list[list[str]] = []
 
-    def wait(_: object, outputs: list[Path]) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+    def wait(watched: Watched) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+        outputs = watched.outputs
         waited.append([path.name for path in outputs])
         if len(waited) > 1:
             raise KeyboardInterrupt
         outputs[0].unlink()
         return (), (outputs[0],)
 
-    monkeypatch.setattr(watch, "_wait", wait)
+    monkeypatch.setattr(watching, "_wait", wait)
     assert main(["watch", "arm.robot.yaml", "-o", "out/", "--format", "folder"]) == INTERRUPTED
     assert waited == [["joints.yaml", "links.txt"]] * 2
     assert Path("out/arm_config/config/joints.yaml").exists()

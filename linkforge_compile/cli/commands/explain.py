@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import add_spec_options, compile_spec, require_one_spec, split_assignments
 from linkforge_compile.cli.reports import add_report_options, place_lines, report
-from linkforge_compile.source.provenance import WORDS, Kind, Provenance
 
 if TYPE_CHECKING:
     import argparse
 
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.expand.values import NameOrigin, Setting
-    from linkforge_compile.export_spec import ComputedFrom, Explanation, UnknownPathError
+    from linkforge_compile.export_spec import Explanation, UnknownPathError
     from linkforge_compile.formats.ros2_controllers.complete import Derived
 
 _EXAMPLES = """\
@@ -29,9 +27,6 @@ examples:
   linkforge explain LF4102                  what a diagnostic means, with a wrong and a right spec
   linkforge explain --codes                 all of them
 """
-
-
-_LONGEST_TEXT = 60
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -81,13 +76,14 @@ def _explain_value(arguments: argparse.Namespace) -> int:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.export_spec import UnknownPathError, explain
+    from linkforge_compile.export_spec.explanation_lines import explanation_lines
 
     derived = _complete_controllers(compilation.robot, path)
     try:
         explanation = explain(compilation.robot, path)
     except UnknownPathError as error:
         raise UsageError(f"{error}{_hint(error, compilation.robot, path)}") from None
-    lines = _lines(explanation) if derived is None else _derived(explanation, derived)
+    lines = explanation_lines(explanation, place_lines) if derived is None else _derived(explanation, derived)
     write_to_stdout("".join(f"{line}\n" for line in lines))
     return OK
 
@@ -140,66 +136,8 @@ def _frame_hint(robot: Robot, path: str) -> str:
     return f"; look at 'joints/{joint.name}{path[len(joint.child) :]}'"
 
 
-def _lines(explanation: Explanation) -> Iterator[str]:
-    yield explanation.text
-    chain = explanation.provenance
-    if chain is None:
-        yield "written in no file"
-        return
-    if explanation.is_written:
-        yield from place_lines(chain.sentence, chain.span)
-    elif explanation.computed_from is None:
-        yield "no line of the spec wrote this; it has its default"
-        yield from place_lines(f"what it belongs to is {chain.sentence}", chain.span)
-    links = [link for link in chain.outer or () if link.sentence]
-    of_value = [link for link in links if link.kind in {Kind.EXPRESSION, Kind.VALUE}]
-    for link in of_value:
-        yield from _link(link, explanation.names)
-    if explanation.computed_from:
-        yield from _computed(explanation.computed_from)
-    for link in links:
-        if link not in of_value:
-            yield from _link(link)
-
-
 def _derived(explanation: Explanation, derived: Derived) -> Iterator[str]:
     yield explanation.text
     yield f"not written itself: {derived.why}"
     if derived.subject and derived.source:
         yield from place_lines(f"{derived.subject} is written", derived.source.at(*derived.path))
-
-
-def _link(link: Provenance, names: Sequence[NameOrigin] = ()) -> Iterator[str]:
-    if link.kind is not Kind.EXPRESSION:
-        yield from place_lines(link.sentence, link.span)
-        return
-    yield link.sentence
-    for name in names:
-        yield from _name(name, "  ")
-
-
-def _computed(inertial: ComputedFrom) -> Iterator[str]:
-    yield f"computed from the {inertial.quantity}, spread evenly over the link's shapes"
-    yield from place_lines(f"the {inertial.quantity} is {inertial.place.sentence}", inertial.place.span)
-    for shape in inertial.shapes:
-        yield f"{shape.path}, a {shape.geometry}" + (f", is written at {shape.place}" if shape.place else "")
-
-
-def _name(name: NameOrigin, indent: str) -> Iterator[str]:
-    yield f"{indent}{name.name} is {name.value}, {_setting(name.setting)}"
-    yield from (f"{indent}  instead of {_setting(other)}" for other in name.setting.instead_of)
-    for inner in name.names:
-        yield from _name(inner, f"{indent}  ")
-
-
-def _setting(setting: Setting) -> str:
-    """Return what set a name: "the default 0.8 m at arm.robot.yaml:6:11"."""
-    from linkforge_compile.listing import as_written
-
-    words, place = WORDS[setting.kind].sentence.format(name=setting.name), setting.node.span
-    if setting.kind is Kind.COMMAND_LINE:
-        return words
-    if setting.named_by is not None:
-        return f"{words} at {setting.named_by.span}"
-    text = as_written(setting.node)
-    return f"{words} {text} at {place}" if text and len(text) <= _LONGEST_TEXT else f"{words} at {place}"

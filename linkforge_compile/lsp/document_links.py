@@ -1,0 +1,69 @@
+"""Link the paths in a spec to their files: modules, includes, data, meshes and textures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lsprotocol import types
+
+from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
+from linkforge_compile.load import Loader, SpecFile
+from linkforge_compile.load.locations import PathSite, locate
+from linkforge_compile.lsp.convert import uri_of
+from linkforge_compile.lsp.placed import leaves_in, placed_in
+from linkforge_compile.lsp.workspace import Document
+from linkforge_compile.roots import exists, identity
+from linkforge_compile.schema.descriptions import described_at
+from linkforge_compile.source import Position, Span
+from linkforge_compile.syntax import YamlScalar, has_expression
+
+_FILE = "a file name"
+
+
+def document_links(document: Document, settings: Settings) -> list[types.DocumentLink]:
+    """Return the links of an open spec, to files that exist and that it may read."""
+    user = _spec_of(document)
+    if user is None:
+        return []
+    loader = settings.loader(document.path)
+    found = {(span.start, span.end): (span, text) for span, text in _paths(document, user)}
+    return [link for span, text in found.values() if (link := _link(document, user, loader, span, text))]
+
+
+def _spec_of(document: Document) -> SpecFile | None:
+    """Return the file of a document as the compiler read it, itself or as a part of another one."""
+    for analysis in document.analyses:
+        if analysis.spec is None:
+            continue
+        if document.holds(analysis.spec.file.whole):
+            return analysis.spec
+        for file, part in analysis.spec.included.items():
+            if file.path is not None and identity(file.path) == identity(document.path):
+                return part
+    return None
+
+
+def _paths(document: Document, user: SpecFile) -> Iterator[tuple[Span, str]]:
+    """Yield the paths that the document writes or computes, each with its place."""
+    last = Position(len(document.file.lines), 1)
+    written = ((path, node) for path, node in leaves_in(user.tree) if document.holds(node.span))
+    computed = ((one.path, one.node) for one in placed_in(document, Position(1, 1), last) if one.key is None)
+    for path, node in (*written, *computed):
+        if isinstance(node, YamlScalar) and _is_file(path, node):
+            yield node.span, node.text
+
+
+def _is_file(path: tuple[str | int, ...], node: YamlScalar) -> bool:
+    is_path = isinstance(node.value, str) and not has_expression(node.text)
+    return is_path and any(one.schema.get("title") == _FILE for one in described_at(path))
+
+
+def _link(document: Document, user: SpecFile, loader: Loader, span: Span, text: str) -> types.DocumentLink | None:
+    try:
+        target = locate(PathSite(text, span, user, user.packages), loader, Diagnostics())
+    except BeyondLimitError:
+        return None
+    if target is None or not loader.roots.hold(target.path) or not exists(target.path):
+        return None
+    return types.DocumentLink(document.columns.range(span), uri_of(target.path), str(target.path))
