@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.analysis import Analysis
+from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.editor.completions import KEYS, NAMES, marked_names
 from linkforge_compile.expand import Instance
 from linkforge_compile.expand.instance import joint_name_of
@@ -22,6 +23,7 @@ from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, Yam
 DECLARING = {
     ("links",): "link",
     ("joints",): "joint",
+    ("mount",): "joint",
     ("frames",): "link",
     ("materials",): "material",
     ("sensors",): "sensor",
@@ -45,7 +47,8 @@ class Occurrence(NamedTuple):
     """A name at a place; `name` is the final one, with the prefixes, of which `written` is what the place writes.
 
     A place in a file that is used several times has an occurrence for each use. The text at the place is another one
-    where an expression makes the name.
+    where an expression makes the name. `suffix` is what the name has after what is written: `_joint` for the joint of
+    a frame or module that gives it no name.
     """
 
     kind: str
@@ -53,6 +56,7 @@ class Occurrence(NamedTuple):
     written: str
     span: Span
     is_declaration: bool = False
+    suffix: str = ""
 
 
 class Occurrences:
@@ -60,17 +64,31 @@ class Occurrences:
 
     def __init__(self, analysis: Analysis) -> None:
         found = _in_instance(analysis.instance, "") if analysis.instance else ()
-        self.all = tuple(dict.fromkeys(found))
+        self.all = tuple(_resolved(dict.fromkeys(found)))
 
     def at(self, path: str, position: Position) -> tuple[Occurrence, ...]:
         """Return those at a place in the file with a real path, the innermost first."""
         here = (one for one in self.all if _is_in(one.span, path) and one.span.start <= position <= one.span.end)
-        return tuple(sorted(here, key=lambda one: (one.span.end.line - one.span.line, len(one.span.text or ""))))
+
+        def size(one: Occurrence) -> tuple[int, int, int]:
+            return one.span.end.line - one.span.line, len(one.span.text or ""), len(one.suffix)
+
+        return tuple(sorted(here, key=size))
 
     def of(self, names: Iterable[Occurrence]) -> tuple[Occurrence, ...]:
         """Return all occurrences of what the given ones name."""
         wanted = {(one.kind, one.name) for one in names}
         return tuple(one for one in self.all if (one.kind, one.name) in wanted)
+
+
+def _resolved(found: Iterable[Occurrence]) -> Iterator[Occurrence]:
+    """Yield occurrences without those of kinds that have no such part, where a place may name one of several kinds."""
+    found = tuple(found)
+    declared = {(one.kind, one.name) for one in found if one.is_declaration}
+    known = {(str(one.span), one.name) for one in found if (one.kind, one.name) in declared}
+    for one in found:
+        if (one.kind, one.name) in declared or (str(one.span), one.name) not in known:
+            yield one
 
 
 def _is_in(span: Span, path: str) -> bool:
@@ -99,15 +117,12 @@ def _in_entry(module: Instance, entry: YamlMap, prefix: str) -> Iterator[Occurre
     """Yield the occurrences in the entry of a module: its own name, that of its joint, and its parent."""
     walker = _Walker(prefix)
     if module.entry is not None and isinstance(module.entry.key, YamlScalar):
-        yield walker.occurrence("module", module.entry.key, is_declaration=True)
+        yield Occurrence("module", prefix + module.name, module.name, module.entry.key.span, is_declaration=True)
     yield from walker.references(entry, definitions()["module"])
-    joint = entry.get("joint")
-    named = joint.get("name") if isinstance(joint, YamlMap) else joint
-    if isinstance(named, YamlScalar):
-        yield walker.occurrence("joint", named, is_declaration=True)
-    elif module.entry is not None and isinstance(module.entry.key, YamlScalar) and entry.get("parent"):
-        key, name = module.entry.key, joint_name_of(module.name, entry)
-        yield Occurrence("joint", prefix + name, name, key.span, is_declaration=True)
+    if module.entry is not None and isinstance(module.entry.key, YamlScalar):
+        joint = walker.named_joint(module.name, module.entry.key.span, entry)
+        if entry.get("parent") or not joint.suffix:
+            yield joint
 
 
 class _Walker:
@@ -117,20 +132,47 @@ class _Walker:
         self._prefix = prefix
 
     def occurrence(self, kind: str, node: YamlScalar, *, is_declaration: bool = False) -> Occurrence:
-        return Occurrence(kind, self._prefix + node.text, node.text, node.span, is_declaration)
+        text = node.span.text or ""
+        # The long form of a frame names its joint where the frame is named.
+        is_made = is_declaration and node.text == f"{text}_joint"
+        written, suffix = (text, "_joint") if is_made else (node.text, "")
+        return Occurrence(kind, self._prefix + node.text, written, node.span, is_declaration, suffix)
+
+    def named_joint(self, key: str, place: Span, entry: YamlMap) -> Occurrence:
+        """Return the joint of a frame or module, which its key, computed, names unless `joint` does."""
+        name = joint_name_of(key, entry)
+        joint = entry.get("joint")
+        joint = joint.get("name") if isinstance(joint, YamlMap) else joint
+        if isinstance(joint, YamlScalar) and joint.value is not None:
+            return self.occurrence("joint", joint, is_declaration=True)
+        return Occurrence("joint", self._prefix + name, key, place, True, name.removeprefix(key))
 
     def declarations(self, tree: YamlMap) -> Iterator[Occurrence]:
         """Yield the names that the sections of a file declare."""
         for path, kind in DECLARING.items():
             for entry in _section(tree, path):
+                if kind == "controller" and entry.name == MANAGER:
+                    continue
                 yield self.occurrence(kind, entry.key, is_declaration=True)
-                if path == ("frames",) and isinstance(entry.value, YamlMap):
-                    name = joint_name_of(entry.name, entry.value)
-                    yield Occurrence("joint", self._prefix + name, name, entry.key.span, is_declaration=True)
+                if kind == "virtual joint":
+                    yield self.occurrence("joint", entry.key, is_declaration=True)
+                if path == ("frames",):
+                    fields = entry.value if isinstance(entry.value, YamlMap) else YamlMap({}, entry.value.span)
+                    yield self.named_joint(entry.key.text, entry.key.span, fields)
         for group in _section(tree, _STATES):
             for state in group.value if isinstance(group.value, YamlMap) else ():
-                name = f"{self._prefix}{group.name}/{state.name}"
-                yield Occurrence("state", name, state.name, state.key.span, is_declaration=True)
+                yield self._state(group.name, state.key)._replace(is_declaration=True)
+                yield from self._states_of_groups(state.value)
+
+    def _states_of_groups(self, state: YamlNode) -> Iterator[Occurrence]:
+        """Yield the groups, and their states, of which a state consists."""
+        for entry in state if isinstance(state, YamlMap) else ():
+            if isinstance(entry.value, YamlScalar) and isinstance(entry.value.value, str):
+                yield self.occurrence("group", entry.key)
+                yield self._state(entry.name, entry.value)
+
+    def _state(self, group: str, name: YamlScalar) -> Occurrence:
+        return Occurrence("state", f"{self._prefix}{group}/{self._prefix}{name.text}", name.text, name.span)
 
     def references(self, node: YamlNode, schema: Schema) -> Iterator[Occurrence]:
         """Yield the names in what a schema describes that its marks call names of parts."""

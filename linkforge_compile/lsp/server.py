@@ -27,11 +27,19 @@ from linkforge_compile.lsp.hover import hover
 from linkforge_compile.lsp.inlay_hints import HintOptions, inlay_hints
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.semantic_tokens import LEGEND, semantic_tokens
 from linkforge_compile.lsp.symbols import find_symbols, outline
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
 
 _Result = TypeVar("_Result")
+
+_WATCHING = types.Registration(
+    "files",
+    types.WORKSPACE_DID_CHANGE_WATCHED_FILES,
+    types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher("**/*")]),
+)
+"""A spec depends on specs, robots of vendors, data and meshes, whatever their endings; only theirs analyse again."""
 
 DEBOUNCE = 0.1
 """Time without a change before specs are analysed [s]."""
@@ -136,6 +144,13 @@ def _add_synchronization(server: SpecServer) -> None:
         packages = options.get("packages", {}) if isinstance(options, dict) else {}
         server.specs.packages = {name: Path(place) for name, place in packages.items()}
         server.hints = HintOptions.of(options)
+
+    @server.feature(types.INITIALIZED)
+    async def _initialized(_params: types.InitializedParams) -> None:
+        workspace = server.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching and watching.dynamic_registration:
+            await server.client_register_capability_async(types.RegistrationParams([_WATCHING]))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     async def _opened(params: types.DidOpenTextDocumentParams) -> None:
@@ -260,6 +275,11 @@ def _add_hints(server: SpecServer) -> None:
             return []
         start, end = document.place(params.range.start), document.place(params.range.end)
         return await server.in_thread(partial(inlay_hints, document, start, end, server.hints))
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND)
+    async def _classify(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        document = await server.analysed(params.text_document.uri)
+        return semantic_tokens(document) if document else types.SemanticTokens([])
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
     async def _link(params: types.DocumentLinkParams) -> list[types.DocumentLink]:

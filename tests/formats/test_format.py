@@ -9,6 +9,7 @@ import pytest
 from linkforge_compile import formats
 from linkforge_compile.cli import INTERRUPTED, watching
 from linkforge_compile.cli.main import main
+from linkforge_compile.cli.watching import Watched
 from linkforge_compile.formats.environment import xml_endings
 from linkforge_compile.formats.format import Format, TemplateFormat
 from linkforge_compile.resources import format_templates
@@ -332,12 +333,13 @@ def test_deps_without_a_folder_names_the_files_here(capsys: pytest.CaptureFixtur
 def test_watch_makes_a_file_of_several_again_that_is_gone(monkeypatch: pytest.MonkeyPatch):
     waited: list[list[str]] = []
 
-    def wait(watched: watching.Watched) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
-        waited.append([path.name for path in watched.outputs])
+    def wait(watched: Watched) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
+        outputs = watched.outputs
+        waited.append([path.name for path in outputs])
         if len(waited) > 1:
             raise KeyboardInterrupt
-        watched.outputs[0].unlink()
-        return (), (watched.outputs[0],)
+        outputs[0].unlink()
+        return (), (outputs[0],)
 
     monkeypatch.setattr(watching, "_wait", wait)
     assert main(["watch", "arm.robot.yaml", "-o", "out/", "--format", "folder"]) == INTERRUPTED

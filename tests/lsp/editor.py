@@ -43,6 +43,7 @@ class Editor:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._published: dict[str, types.PublishDiagnosticsParams] = {}
+        self.registered: list[str] = []
         self._news = threading.Condition()
         self._versions: dict[str, int] = {}
         self._folders = folders
@@ -56,6 +57,12 @@ class Editor:
         @self._client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
         def _published(params: types.PublishDiagnosticsParams) -> None:
             self._note_diagnostics(params)
+
+        @self._client.feature(types.CLIENT_REGISTER_CAPABILITY)
+        def _registered(params: types.RegistrationParams) -> None:
+            with self._news:
+                self.registered += [one.method for one in params.registrations]
+                self._news.notify_all()
 
         self.wait(self._client.start_io(self._python, "-m", "linkforge_compile", "lsp"))
         folders = [types.WorkspaceFolder(folder.as_uri(), folder.name) for folder in self._folders]
@@ -112,6 +119,11 @@ class Editor:
         del self._versions[uri]
         document = types.TextDocumentIdentifier(uri)
         self._send(lambda: self._client.text_document_did_close(types.DidCloseTextDocumentParams(document)))
+
+    def wait_for_registration(self, method: str) -> None:
+        """Wait until the server has asked for notifications of a kind."""
+        with self._news:
+            assert self._news.wait_for(lambda: method in self.registered, TIMEOUT), method
 
     def notify_files(self, changes: list[types.FileEvent]) -> None:
         """Report changes of files on disk."""

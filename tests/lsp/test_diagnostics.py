@@ -133,6 +133,13 @@ def test_a_file_that_changes_on_disk_is_read_again(editor: Editor, tmp_path: Pat
     assert editor.published(cell, lambda found: not found) == []
 
 
+def test_an_editor_that_can_watch_files_is_asked_to(tmp_path: Path):
+    watching = types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True)
+    abilities = types.ClientCapabilities(workspace=types.WorkspaceClientCapabilities(did_change_watched_files=watching))
+    with Editor(tmp_path, abilities=abilities) as editor:
+        editor.wait_for_registration(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+
+
 def test_a_closed_file_loses_its_diagnostics(editor: Editor, tmp_path: Path):
     file = tmp_path / "arm.robot.yaml"
     editor.open(file, "links: [\n")

@@ -115,3 +115,11 @@ def test_highlights_are_those_of_the_file(editor: Editor, robot: Path):
 def test_a_position_beyond_the_text_names_nothing(editor: Editor, robot: Path):
     params = types.DefinitionParams(editor.open(robot / "arm.robot.yaml"), types.Position(10_000, 10_000))
     assert editor.ask(lambda client: client.text_document_definition_async(params)) == []
+
+
+def test_the_joint_of_a_repeated_module_is_declared_by_its_key(editor: Editor, robot: Path):
+    cell = CELL.replace("left: {use", "$(s): {for: {s: [left]}, use")
+    cell = cell.replace("semantic:", "semantic:\n  passive_joints: [left_joint]")
+    (robot / "cell.robot.yaml").write_text(cell)
+    found = definition(editor, robot / "cell.robot.yaml", cell.replace("[left_joint]", "[left¦_joint]"))
+    assert found == ["cell:6:$(s)"]

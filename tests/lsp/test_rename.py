@@ -130,3 +130,38 @@ def test_the_name_to_change_is_offered_without_quotes(editor: Editor, robot: Pat
     found = editor.ask(lambda client: client.text_document_prepare_rename_async(params))
     assert isinstance(found, types.PrepareRenamePlaceholder)
     assert (found.placeholder, found.range.start.character) == ("elbow", text.split("\n")[8].index("'elbow'") + 1)
+
+
+def test_the_joint_of_a_frame_is_renamed_with_it(editor: Editor, robot: Path):
+    arm = ARM.replace("semantic:", "frames: {eye: {parent: tip}}\nsemantic:").replace("[elbow]", "[elbow, eye_joint]")
+    found = renamed(editor, robot / "arm.robot.yaml", arm.replace("{eye:", "{e¦ye:"), "lens")
+    assert found == {"arm": arm.replace("eye", "lens")}
+    found = renamed(editor, robot / "arm.robot.yaml", arm.replace("eye_joint", "eye_jo¦int"), "lens_joint")
+    assert found == {"arm": arm.replace("eye", "lens")}
+    with pytest.raises(JsonRpcException, match="must end with '_joint'"):
+        renamed(editor, robot / "arm.robot.yaml", arm.replace("eye_joint", "eye_jo¦int"), "lens")
+
+
+def test_a_state_is_renamed_where_others_consist_of_it(editor: Editor, robot: Path):
+    cell = CELL.replace("group_states:", "groups: {both: {subgroups: [left_all, right_all]}}\n  group_states:")
+    cell = cell.replace(
+        "{left_elbow: 1}}}", "{left_elbow: 1}}, both: {rest: {left_all: left_home, right_all: right_home}}}"
+    )
+    (robot / "cell.robot.yaml").write_text(cell)
+    found = renamed(editor, robot / "arm.robot.yaml", ARM.replace("{home:", "{ho¦me:"), "rest")
+    assert found == {"arm": ARM.replace("home", "rest"), "cell": cell.replace("_home", "_rest")}
+
+
+def test_a_name_after_an_expression_is_renamed(editor: Editor, robot: Path):
+    cell = CELL.replace("{left_tip: {right_tip: Never}}", "{$(s)_tip: {for: {s: [left]}, value: {right_tip: Never}}}")
+    (robot / "cell.robot.yaml").write_text(cell)
+    found = renamed(editor, robot / "arm.robot.yaml", ARM.replace("  tip: {}", "  t¦ip: {}"), "hand")
+    assert found == {"arm": ARM.replace("tip", "hand"), "cell": cell.replace("_tip", "_hand")}
+
+
+def test_a_module_without_a_prefix_is_refused(editor: Editor, robot: Path):
+    with pytest.raises(JsonRpcException, match="write 'prefix: left_' in its entry first"):
+        renamed(editor, robot / "cell.robot.yaml", CELL.replace("  left: {use", "  le¦ft: {use"), "port")
+    cell = CELL.replace("left: {use: arm.robot.yaml,", "left: {use: arm.robot.yaml, prefix: left_,")
+    found = renamed(editor, robot / "cell.robot.yaml", cell.replace("  left: {use", "  le¦ft: {use"), "port")
+    assert found == {"cell": cell.replace("  left:", "  port:")}

@@ -1,0 +1,98 @@
+"""Parts of the examples, renamed and back: the same texts, and robots that differ in the name alone."""
+
+import os
+import random
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+from lsprotocol import types
+from pygls.workspace import PositionCodec
+
+from linkforge_compile import render
+from linkforge_compile.analysis import analyse_path
+from linkforge_compile.lsp.convert import Columns, path_of
+from linkforge_compile.lsp.occurrences import Occurrence, Occurrences
+from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.workspace import Document, Workspace, find_users
+from linkforge_compile.roots import identity
+from tests.conftest import ROOT
+from tests.lsp.test_rename import applied
+
+EXAMPLES = ROOT / "examples"
+NEW = "_renamed"
+SPECS = sorted(EXAMPLES.rglob("*.robot.yaml"))
+ALL = bool(os.environ.get("LINKFORGE_RENAME_ALL"))
+"""Whether every part of every example is renamed (a minute), not a few of each (always the same)."""
+
+
+def document_of(path: Path, texts: Mapping[Path, str]) -> tuple[Document, Workspace]:
+    """Return a spec with the specs that read it, and the workspace with some texts open."""
+    workspace = Workspace(folders=(EXAMPLES,))
+    for file, text in {path: path.read_text(), **texts}.items():
+        workspace.put(file, 1, text)
+    workspace.keep(path, analyse_path(path, workspace.settings()))
+    document = workspace.document(path, Columns(PositionCodec()))
+    assert document is not None
+    users = find_users(path, workspace.folders, workspace.settings())
+    return document._replace(analyses=(*document.analyses, *users.values())), workspace
+
+
+def declared_in(document: Document) -> list[Occurrence]:
+    """Return the parts that a file declares, each place once."""
+    assert document.analysis is not None
+    own = (one for one in Occurrences(document.analysis).all if one.is_declaration and document.holds(one.span))
+    return list({str(one.span): one for one in own}.values())
+
+
+def edited(edit: types.WorkspaceEdit | None, texts: Mapping[Path, str]) -> dict[Path, str]:
+    """Return the texts of the files that an edit changes."""
+    assert edit is not None
+    assert edit.changes
+    files = {path: edits for uri, edits in edit.changes.items() if (path := path_of(uri))}
+    return {Path(identity(path)): applied(texts.get(path, path.read_text()), edits) for path, edits in files.items()}
+
+
+def outputs(document: Document) -> list[str]:
+    """Return what planners, controllers and simulators read of each robot."""
+    robots = [analysis.compilation.robot for analysis in document.analyses]
+    found = []
+    for robot in robots:
+        assert robot is not None
+        formats = ("urdf", "srdf", *(["ros2_controllers"] if robot.controllers else []))
+        found += [render(robot, one) for one in formats]
+    return found
+
+
+@pytest.mark.parametrize("path", SPECS, ids=lambda path: path.name)
+def test_a_part_renamed_and_back_is_the_same(path: Path):
+    document, workspace = document_of(path, {})
+    parts = declared_in(document)
+    for one in parts if ALL else random.Random(path.name).sample(parts, min(2, len(parts))):
+        target = renamed_or_refused(document, one, workspace)
+        if target is None:
+            continue
+        old, texts = target
+        changed, changed_workspace = document_of(path, texts)
+        for before, after in zip(outputs(document), outputs(changed), strict=True):
+            assert after.replace(NEW, "") == before
+        assert any(NEW in text for text in outputs(changed)) or one.kind == "module" or one.suffix
+        back = rename(changed, one.span.start, old, changed_workspace.settings())
+        assert edited(back, texts) == {file: file.read_text() for file in texts}
+
+
+def renamed_or_refused(
+    document: Document, one: Occurrence, workspace: Workspace
+) -> tuple[str, Mapping[Path, str]] | None:
+    """Return the old name and the texts after a rename; None if that is refused with a reason."""
+    try:
+        target = renamed_at(document, one.span.start)
+        assert target is not None
+        old = target[0].text or ""
+        suffix = target[1].suffix(one)
+        new = old.removesuffix(suffix) + NEW + suffix if old.endswith(suffix) and not one.suffix else old + NEW
+        return old, edited(rename(document, one.span.start, new, workspace.settings()), {})
+    except RefusedError as error:
+        reason = str(error)
+    assert "would differ" not in reason or one.kind == "module"
+    return None
