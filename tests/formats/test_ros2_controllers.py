@@ -449,6 +449,14 @@ def test_a_parameter_of_a_field_is_checked_as_that_field(in_parameters: str, in_
     assert controller("c", f"{start}{{{in_parameters}}}}}\n") == controller("c", f"{start}{{{in_fields}}}}}\n")
 
 
+def test_joints_in_parameters_of_other_classes_of_ros2_controllers_are_checked():
+    parameters = "{joints: [elbwo], frame_id: world, gpios: [a]}"
+    own = f"{{type: admittance_controller/AdmittanceController, parameters: {parameters}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers: {{own: {own}, o: {{type: a/B}}}}\n"
+    found = [(one.code.id, one.span.text) for one in compile_text(text).diagnostics if one.span]
+    assert found == [("LF4103", "elbwo")]
+
+
 def test_joints_in_parameters_are_commanded():
     own = f"{{type: {POSITIONS}, parameters: {{joints: [shoulder, elbow]}}}}"
     assert reported(f"{ROBOT}controllers: {{c: {own}}}\n") == [

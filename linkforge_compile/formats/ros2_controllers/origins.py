@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller import MANAGER, PARAMETERS_OF_FIELDS, Controller
-from linkforge_compile.core.models.controller_kinds import path_of_field
+from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller_kinds import PARAMETERS_OF_FIELDS, path_of_field
 from linkforge_compile.formats.ros2_controllers.complete import Completed, Derived, completed_controllers
 from linkforge_compile.formats.ros2_controllers.limits import missing_hardware
 
