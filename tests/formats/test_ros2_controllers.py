@@ -10,6 +10,7 @@ from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.export_spec import write_spec
 from linkforge_compile.formats import ROS2_CONTROLLERS, Rendering
+from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.ros_parameters import nodes_in, require_declared
 
@@ -421,6 +422,17 @@ def test_a_list_that_ros_refuses_is_one_error():
     own = f"{{type: {type_}, group: arm, parameters: {{command_joints: [1, a]}}}}"
     found = reported(f"{ROBOT}{ARM_GROUP}controllers: {{c: {own}, o: {{type: a/B}}}}\n")
     assert [one[:6] for one in found] == ["LF7623"]
+
+
+@pytest.mark.parametrize("name", ["c", "controller_manager"])
+def test_a_list_with_a_faulty_item_is_one_error(tmp_path: Path, name: str):
+    type_ = "type: a/B, " if name == "c" else ""
+    own = f"{{{type_}parameters: {{qos_overrides: {{list: [1, $(nix)]}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers: {{o: {{type: a/B}}, {name}: {own}}}\n"
+    (tmp_path / "robot.robot.yaml").write_text(text)
+    run = linkforge("compile", "robot.robot.yaml", "--format", "ros2_controllers", "-o", "-", cwd=tmp_path)
+    assert "[LF3107]" in run.stderr
+    assert run.stderr.count("error: ") == 1
 
 
 @pytest.mark.parametrize(
