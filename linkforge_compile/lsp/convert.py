@@ -43,7 +43,11 @@ class Columns:
 
     def position(self, file: SourceFile, at: Position) -> types.Position:
         """Return the protocol's position of a place in a file."""
-        return types.Position(at.line - 1, self._codec.client_num_units(file.line(at.line)[: at.column - 1]))
+        line = file.line(at.line)
+        # Only text beyond ASCII is counted: a generated spec may have thousands of places in one line.
+        if line.isascii():
+            return types.Position(at.line - 1, min(at.column - 1, len(line)))
+        return types.Position(at.line - 1, self._codec.client_num_units(line[: at.column - 1]))
 
     def range(self, span: Span) -> types.Range:
         """Return the protocol's range of a span."""
@@ -56,6 +60,8 @@ class Columns:
     def place(self, file: SourceFile, at: types.Position) -> Position:
         """Return the place of a position of the protocol; the end of its line for one beyond it."""
         line, units = file.line(at.line + 1), 0
+        if line.isascii():
+            return Position(at.line + 1, min(at.character, len(line)) + 1)
         for column, character in enumerate(line, start=1):
             if units >= at.character:
                 return Position(at.line + 1, column)

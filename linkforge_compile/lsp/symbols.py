@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 from lsprotocol import types
 
@@ -21,6 +22,9 @@ MAX_DEPTH = 30
 """How many links deep an outline is nested, as clients read it by recursion; what is deeper follows at the end."""
 
 MAX_FOUND = 500
+
+MAX_CHARACTERS = 4 * 1024**2
+"""How much of a workspace a search reads: it takes seconds, and each letter that is typed searches again."""
 
 _KINDS = {
     "link": types.SymbolKind.Object,
@@ -56,27 +60,40 @@ def find_symbols(
     query: str, folders: Iterable[Path], settings: Settings, columns: Columns
 ) -> list[types.WorkspaceSymbol]:
     """Return the parts that specs in folders declare, as written there, whose names have the letters in this order."""
-    found: list[types.WorkspaceSymbol] = []
-    for path in (spec for folder in folders for spec in specs_in(folder)):
-        for kind, name, span in _declared(path, settings):
-            location = columns.location(span)
-            if location and _matches(query.lower(), name.lower()):
-                found.append(
-                    types.WorkspaceSymbol(
-                        location, name, _KINDS.get(kind, types.SymbolKind.Field), container_name=path.name
-                    )
-                )
-    return sorted(found, key=lambda one: (len(one.name), one.name))[:MAX_FOUND]
+    declared = _declared((spec for folder in folders for spec in specs_in(folder)), settings)
+    found = [one for one in declared if _matches(query.lower(), one.name.lower())]
+    found.sort(key=lambda one: (len(one.name), one.name))
+    return [
+        types.WorkspaceSymbol(
+            location, one.name, _KINDS.get(one.kind, types.SymbolKind.Field), container_name=one.path.name
+        )
+        for one in found[:MAX_FOUND]
+        if (location := columns.location(one.span))
+    ]
 
 
-def _declared(path: Path, settings: Settings) -> Iterator[tuple[str, str, Span]]:
-    """Yield the kind, name and place of each part that a spec declares, without what it uses and computes."""
-    try:
-        spec = settings.loader(path).open(path, Diagnostics())
-    except BeyondLimitError:
-        return
-    for kind, entry in declarations_in(spec.tree) if spec else ():
-        yield kind, entry.name, entry.key.span
+class _Declared(NamedTuple):
+    """A part that a spec declares: the path of the spec, the part's kind and name, and the place of the name."""
+
+    path: Path
+    kind: str
+    name: str
+    span: Span
+
+
+def _declared(paths: Iterable[Path], settings: Settings) -> Iterator[_Declared]:
+    """Yield the parts that specs declare, without what they use and compute, until MAX_CHARACTERS are read."""
+    characters = 0
+    for path in paths:
+        try:
+            spec = settings.loader(path).open(path, Diagnostics())
+        except BeyondLimitError:
+            continue
+        for kind, entry in declarations_in(spec.tree) if spec else ():
+            yield _Declared(path, kind, entry.name, entry.key.span)
+        characters += len(spec.file.text) if spec else 0
+        if characters > MAX_CHARACTERS:
+            return
 
 
 def _matches(query: str, name: str) -> bool:

@@ -3,8 +3,14 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import pytest
 from lsprotocol import types
+from pygls.workspace import PositionCodec
 
+from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.lsp.symbols import MAX_FOUND, find_symbols
+from linkforge_compile.lsp.workspace import Workspace
+from linkforge_compile.source import Position, SourceFile
 from tests.lsp.editor import Editor
 from tests.lsp.test_navigation import ARM, CELL
 
@@ -100,6 +106,56 @@ def test_parts_of_all_specs_of_the_workspace_are_found_by_their_letters(editor: 
     assert search(editor, "nothing") == []
     editor.open(tmp_path / "arm.robot.yaml", ARM.replace("elbow", "wrist"))
     assert search(editor, "wri") == ["arm.robot.yaml:wrist"]
+
+
+def found_in(folder: Path, query: str) -> list[str]:
+    found = find_symbols(query, [folder], Workspace().settings(), Columns(PositionCodec()))
+    return [one.name for one in found]
+
+
+def test_places_in_a_long_line_are_converted_without_counting_it(tmp_path: Path):
+    links = [f"l{number}: {{}}" for number in range(2000)]
+    begin = "linkforge: 1\nname: h\nlinks: "
+    (tmp_path / "x.robot.yaml").write_text(f"{begin}{{{', '.join(links)}}}\n")
+    file = SourceFile("x", (tmp_path / "x.robot.yaml").read_text())
+    units = _CountingCodec()
+    assert Columns(units).position(file, Position(3, 9)) == types.Position(2, 8)
+    assert Columns(units).place(file, types.Position(2, 8)) == Position(3, 9)
+    assert units.counted == 0
+    assert len(found_in(tmp_path, "l")) == MAX_FOUND
+    assert found_in(tmp_path, "1999") == ["l1999"]
+
+
+def test_columns_beyond_ascii_are_in_the_unit_of_the_client():
+    file, columns = SourceFile("x", "a: 𝄞b\nab"), Columns(PositionCodec())
+    assert columns.position(file, Position(1, 5)) == types.Position(0, 5)
+    assert columns.place(file, types.Position(0, 5)) == Position(1, 5)
+    assert columns.position(file, Position(2, 9)) == types.Position(1, 2)
+    assert columns.place(file, types.Position(1, 9)) == Position(2, 3)
+
+
+def test_a_search_counts_columns_only_of_what_it_finds(tmp_path: Path):
+    (tmp_path / "x.robot.yaml").write_text("linkforge: 1\nname: h\nlinks: {l𝄞: {}, m: {}}\n")
+    codec = _CountingCodec()
+    assert find_symbols("zzz", [tmp_path], Workspace().settings(), Columns(codec)) == []
+    assert codec.counted == 0
+
+
+def test_a_search_reads_a_limited_part_of_a_workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    for name in "abc":
+        (tmp_path / f"{name}.robot.yaml").write_text(f"linkforge: 1\nname: {name}\nlinks: {{link_{name}: {{}}}}\n")
+    monkeypatch.setattr("linkforge_compile.lsp.symbols.MAX_CHARACTERS", 50)
+    assert len(found_in(tmp_path, "link")) == 2
+
+
+class _CountingCodec(PositionCodec):
+    """Counts how often units are counted, which takes time for each character of a text."""
+
+    counted = 0
+
+    def client_num_units(self, chars: Sequence[str]) -> int:
+        self.counted += 1
+        return super().client_num_units(chars)
 
 
 def test_every_example_has_an_outline_with_all_its_links(editor: Editor):
