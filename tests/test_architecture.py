@@ -22,6 +22,7 @@ MAY_IMPORT = {
     "file_watcher": "",
     "_version": "",
     "diagnostics": "source",
+    "fixing": "source diagnostics roots",
     "limits": "source diagnostics",
     "syntax": "source diagnostics limits units",
     "formatter": "source diagnostics limits syntax",
@@ -52,11 +53,11 @@ MAY_IMPORT = {
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
-        "analysis source diagnostics syntax formatter schema expressions units load expand listing core export_spec "
-        "editor roots paths resources formats lower _version"
+        "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
+        "export_spec editor roots paths resources formats lower _version"
     ),
     "cli": (
-        "banner source diagnostics limits roots paths core checks schema load expand listing analysis pipeline "
+        "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
         "importing formats formatter export_spec compare collisions editor lsp resources file_watcher _version"
     ),
 }

@@ -3,57 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.specs import count
-from linkforge_compile.diagnostics import Diagnostic, Severity
-from linkforge_compile.diagnostics.codes.syntax import SPACE_AFTER_COLON, XACRO_EXPRESSION
-from linkforge_compile.diagnostics.fix import Edit, Fix, apply_edits, without_overlaps
-from linkforge_compile.diagnostics.grouping import ungrouped
+from linkforge_compile.fixing import Report, apply_safe_fixes, files_to_fix
 from linkforge_compile.roots import identity, top_of
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
 
-_MOST_CHECKS = 100
-"""How often the specs are checked at most; each fix of a syntax error may uncover the next one."""
-
-_SYNTAX, _YAML = "LF10", "LF1"
-"""How the codes of errors begin that hide all others in a file, and of all errors of YAML, such as a repeated key."""
-
-
-class Report(Protocol):
-    """What a check of all specs reports."""
-
-    @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]: ...
-
-
 _Report = TypeVar("_Report", bound=Report)
-
-
-class _Candidate(NamedTuple):
-    """A safe fix, and the diagnostic that it corrects."""
-
-    diagnostic: Diagnostic
-    fix: Fix
-
-    @property
-    def key(self) -> tuple[object, ...]:
-        """What identifies it in the next report, in which its place may have moved."""
-        return *_key(self.diagnostic), *(edit.text for edit in self.fix.edits)
-
-    @property
-    def file(self) -> Path:
-        """The file of its first edit."""
-        path = self.fix.edits[0].span.file.path
-        assert path, "texts without a file are not changed"
-        return path
 
 
 def fix_files(
@@ -65,114 +28,34 @@ def fix_files(
     of the specs are changed. A fix that brings an error is not applied.
     """
     tops = {Path(identity(top_of(Path(spec)))) for spec in specs}
-    texts: dict[str, str] = {}
-    shown: dict[str, Path] = {}
-    fixed: Counter[Path] = Counter()  # by the file of the first edit
-    refused: dict[tuple[object, ...], str] = {}
-    report, at_once = check(texts), None
-    for _ in range(_MOST_CHECKS):
-        chosen = [one for one in _candidates(report, tops) if one.key not in refused][:at_once]
-        if not chosen:
-            break
-        edited = _edited(chosen)
-        after = check({**texts, **{identity(path): text for path, text in edited.items()}})
-        if not (fault := _new_fault(chosen, report, after)):
-            texts |= {identity(path): text for path, text in edited.items()}
-            shown |= {identity(path): path for path in edited}
-            fixed.update(one.file for one in chosen)
-            report, at_once = after, None
-        elif len(chosen) == 1:
-            [one] = chosen
-            refused[one.key] = f"{one.fix.edits[0].span}: did not {one.fix.title}: {fault}"
-            at_once = None
-        else:
-            at_once = len(chosen) // 2
-    _write({shown[real]: text for real, text in texts.items()}, fixed, arguments)
-    for line in refused.values():
+    fixed = apply_safe_fixes(check, lambda path: _may_change(path, tops))
+    _write(fixed.texts, fixed.numbers, arguments)
+    for line in fixed.refused:
         print_status(line, arguments)
-    return report
-
-
-def _candidates(report: Report, tops: Collection[Path]) -> list[_Candidate]:
-    """Return the safe fixes of a report that can be applied together, each once."""
-    by_edits: dict[tuple[object, ...], _Candidate] = {}
-    for one in ungrouped(report.diagnostics):
-        if fix := next((fix for fix in one.fixes if fix.is_safe), None):
-            places = tuple((edit.span.file.name, *edit.range, edit.text) for edit in fix.edits)
-            by_edits.setdefault(places, _Candidate(one, fix))
-    files = {edit.span.file.path for one in by_edits.values() for edit in one.fix.edits}
-    fixed = {path for path in files if path and _may_change(path, tops)}
-    safe = [one for one in by_edits.values() if all(edit.span.file.path in fixed for edit in one.fix.edits)]
-    together = {id(fix) for fix in without_overlaps(one.fix for one in safe)}
-    return [one for one in safe if id(one.fix) in together]
+    for path in sorted(files_to_fix(fixed.report)):
+        if _is_in(path, tops) and path.is_file() and not os.access(path, os.W_OK):
+            print_status(f"did not change {path}: it is read-only", arguments)
+    return fixed.report
 
 
 def _may_change(path: Path, tops: Collection[Path]) -> bool:
     """Whether a file may be written, is in one of the folders, and is UTF-8."""
-    real = Path(identity(path))
-    if not any(real.is_relative_to(top) for top in tops) or not os.access(real, os.W_OK) or not real.is_file():
+    if not _is_in(path, tops) or not os.access(path, os.W_OK) or not path.is_file():
         return False
     try:
-        real.read_text("utf-8")
+        path.read_text("utf-8")
     except (OSError, UnicodeDecodeError):
         return False
     return True
 
 
-def _edited(chosen: Iterable[_Candidate]) -> dict[Path, str]:
-    """Return the texts of the changed files by their paths."""
-    edits: dict[Path, list[Edit]] = {}
-    for edit in (edit for one in chosen for edit in one.fix.edits):
-        if edit.span.file.path:
-            edits.setdefault(edit.span.file.path, []).append(edit)
-    return {path: apply_edits(some[0].span.file, some) for path, some in edits.items()}
+def _is_in(path: Path, tops: Collection[Path]) -> bool:
+    """Whether a file, or the one that it links to, is in one of the folders."""
+    real = Path(identity(path))
+    return any(real.is_relative_to(top) for top in tops)
 
 
-def _new_fault(chosen: Collection[_Candidate], before: Report, after: Report) -> str:
-    """Return why fixes cannot be applied: a diagnostic that is still there, or an error that they bring; "" if neither.
-
-    They bring an error if it is at what they write, or if the text is no longer YAML. Others were hidden before: what
-    cannot be read is not checked.
-    """
-    was, now = (Counter(map(_key, ungrouped(report.diagnostics))) for report in (before, after))
-    corrected = {_key(one.diagnostic) for one in chosen}
-    has_hidden = any(one.diagnostic.code.id.startswith(_SYNTAX) for one in chosen)
-    written = _places_written(chosen)
-    for error in ungrouped(after.diagnostics):
-        if error.span is None:
-            continue
-        at = error.span.file.index_of(*error.span.start)
-        is_in_edit = any(begin <= at <= end for begin, end in written.get(error.span.file.name, ()))
-        if is_in_edit and _key(error) in corrected:
-            return "it is reported again"
-        if error.severity is not Severity.ERROR or now[_key(error)] <= was[_key(error)]:
-            continue
-        is_yaml = error.code.id.startswith(_YAML) and error.code not in (XACRO_EXPRESSION, SPACE_AFTER_COLON)
-        if is_in_edit or (is_yaml and not has_hidden and error.span.file.name in written):
-            return f"it would bring the error '{error.message}'"
-    return ""
-
-
-def _places_written(chosen: Iterable[_Candidate]) -> dict[str, list[tuple[int, int]]]:
-    """Return the indexes between which the edited texts have what fixes write, by the name of the file."""
-    ranges: dict[str, list[tuple[int, int, int]]] = {}
-    for edit in (edit for one in chosen for edit in one.fix.edits):
-        ranges.setdefault(edit.span.file.name, []).append((*edit.range, len(edit.text)))
-    written: dict[str, list[tuple[int, int]]] = {}
-    for name, edits in ranges.items():
-        moved = 0
-        for begin, end, length in sorted(edits):
-            written.setdefault(name, []).append((begin + moved, begin + moved + length))
-            moved += length - (end - begin)
-    return written
-
-
-def _key(diagnostic: Diagnostic) -> tuple[str, str, str]:
-    """Return what identifies a diagnostic in two reports, in which its place may differ."""
-    return diagnostic.code.id, diagnostic.span.file.name if diagnostic.span else "", diagnostic.message
-
-
-def _write(texts: Mapping[Path, str], fixed: Mapping[Path, int], arguments: argparse.Namespace) -> None:
+def _write(texts: Mapping[Path, str], numbers: Mapping[Path, int], arguments: argparse.Namespace) -> None:
     """Write the files, or print their differences, and how many problems were fixed in each."""
     from linkforge_compile.cli.output import unified, write_changed, write_to_stdout
 
@@ -181,5 +64,5 @@ def _write(texts: Mapping[Path, str], fixed: Mapping[Path, int], arguments: argp
             write_to_stdout(unified(on_one_line(str(path)), path.read_bytes().decode(), text, "fixed"))
     else:
         write_changed(texts)
-    for path, number in fixed.items():
+    for path, number in numbers.items():
         print_status(f"{'would fix' if arguments.diff else 'fixed'} {count(number, 'problem')} in {path}", arguments)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from lsprotocol import types
 
+from linkforge_compile.analysis import Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.fix import Edit, Fix, without_overlaps
-from linkforge_compile.diagnostics.grouping import group_at_places, ungrouped
+from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.diagnostics.grouping import group_at_places
+from linkforge_compile.fixing import apply_safe_fixes
 from linkforge_compile.lsp.convert import Columns, uri_of
+from linkforge_compile.lsp.formatting import edits_to
 from linkforge_compile.lsp.workspace import Document
+from linkforge_compile.roots import identity
 from linkforge_compile.syntax.ignore_comments import ignore_fix
 
 FIX_ALL = "source.fixAll.linkforge"
@@ -20,15 +25,18 @@ KINDS = (types.CodeActionKind.QuickFix, FIX_ALL)
 
 
 def code_actions(
-    document: Document, selection: types.Range, context: types.CodeActionContext
+    document: Document, selection: types.Range, context: types.CodeActionContext, settings: Settings
 ) -> list[types.CodeAction]:
-    """Return the actions for a selection, of the kinds that the editor asks for: the safe fixes are preferred."""
-    reported = [*_reported_in(document)]
+    """Return the actions for a selection, of the kinds that the editor asks for: the safe fixes are preferred.
+
+    All safe fixes at once are an action only for an editor that asks for actions of a whole text: proving them takes
+    some analyses with these settings, and they are no answer to one diagnostic.
+    """
     actions = []
     if _is_wanted(types.CodeActionKind.QuickFix, context.only):
-        selected = [one for one in reported if _is_in(one, document, selection)]
+        selected = [one for one in _reported_in(document) if _is_in(one, document, selection)]
         actions += [action for one in selected for action in _quick_fixes(one, document.columns, context.diagnostics)]
-    if _is_wanted(FIX_ALL, context.only) and (action := _fix_all(reported, document.columns)):
+    if context.only and _is_wanted(FIX_ALL, context.only) and (action := _fix_all(document, settings)):
         actions.append(action)
     return actions
 
@@ -63,11 +71,25 @@ def _quick_fixes(one: Diagnostic, columns: Columns, shown: Iterable[types.Diagno
         yield _action(comment, types.CodeActionKind.QuickFix, columns, its)
 
 
-def _fix_all(reported: Iterable[Diagnostic], columns: Columns) -> types.CodeAction | None:
-    """Return the action that applies all safe fixes of a text; None if there are none."""
-    safe = (fix for one in ungrouped(reported) for fix in one.fixes[:1] if fix.is_safe)
-    edits = tuple(edit for fix in without_overlaps(safe) for edit in fix.edits)
-    return _action(Fix("fix what is certain", edits), FIX_ALL, columns) if edits else None
+class _Checked(NamedTuple):
+    """The diagnostics of all specs that read a text."""
+
+    diagnostics: tuple[Diagnostic, ...]
+
+
+def _fix_all(document: Document, settings: Settings) -> types.CodeAction | None:
+    """Return the action that applies all safe fixes of a text, as `check --fix` does; None if there are none."""
+    roots = [one.compilation.files[0] for one in document.analyses if one.compilation.files]
+
+    def check(texts: Mapping[str, str]) -> _Checked:
+        buffers = {**settings.buffers, **texts}
+        compilations = [analyse_path(root, settings._replace(buffers=buffers)).compilation for root in roots]
+        return _Checked(tuple(diagnostic for one in compilations for diagnostic in one.diagnostics))
+
+    texts = apply_safe_fixes(check, lambda path: identity(path) == identity(document.path)).texts
+    edits = [edit for text in texts.values() for edit in edits_to(text, document)]
+    edit = types.WorkspaceEdit(changes={uri_of(document.path): edits})
+    return types.CodeAction("fix what is certain", FIX_ALL, edit=edit) if edits else None
 
 
 def _action(

@@ -1,4 +1,4 @@
-"""The edits that format a text: of the lines that change only, so that cursors and marks on others stay."""
+"""Edits that format a text or make another of it, of changed lines only: cursors and marks on others stay."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from linkforge_compile.lsp.workspace import Document
 
 def format_edits(document: Document) -> list[types.TextEdit]:
     """Return the edits that format a text; none if it is not YAML."""
+    formatted = format_source(document.file, Diagnostics())
+    return [] if formatted is None else edits_to(formatted, document)
+
+
+def edits_to(text: str, document: Document) -> list[types.TextEdit]:
+    """Return the edits of whole lines that make another text of a document."""
     file = document.file
-    formatted = format_source(file, Diagnostics())
-    if formatted is None:
-        return []
-    # A formatted text has none of the other characters at which splitlines splits.
-    before, after = file.counted.splitlines(keepends=True), formatted.removeprefix("\ufeff").splitlines(keepends=True)
+    before, after = file.counted.splitlines(keepends=True), text.removeprefix("\ufeff").splitlines(keepends=True)
     starts = [0, *accumulate(map(len, before))]
     changes = SequenceMatcher(None, before, after).get_opcodes()
     return [

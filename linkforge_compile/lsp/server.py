@@ -226,9 +226,9 @@ def _add_structure(server: SpecServer) -> None:
         return folding_ranges(document.file) if document else []
 
     @server.feature(types.TEXT_DOCUMENT_FORMATTING)
-    def _format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+    async def _format(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
         document = server.document(params.text_document.uri)
-        return format_edits(document) if document else []
+        return await server.in_thread(partial(format_edits, document)) if document else []
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def _outline(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
@@ -330,4 +330,7 @@ def _add_actions(server: SpecServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS))
     async def _act(params: types.CodeActionParams) -> list[types.CodeAction]:
         document = await server.analysed(params.text_document.uri)
-        return code_actions(document, params.range, params.context) if document else []
+        if document is None:
+            return []
+        settings = server.specs.settings()
+        return await server.in_thread(partial(code_actions, document, params.range, params.context, settings))

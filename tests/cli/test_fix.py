@@ -92,6 +92,17 @@ def test_a_file_outside_the_repository_of_the_spec_is_not_changed(tmp_path: Path
     assert part.read_text() == text
 
 
+def test_a_file_that_is_read_only_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As root may write every file, the system's answer is replaced."""
+    text = PENDULUM.replace("continuous", "Continuous")
+    spec = write(tmp_path / "arm.robot.yaml", text)
+    monkeypatch.setattr("os.access", lambda *_: False)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.returncode == 1
+    assert run.stderr.splitlines()[0] == "did not change arm.robot.yaml: it is read-only"
+    assert spec.read_text() == text
+
+
 def test_a_link_to_a_spec_stays_a_link(tmp_path: Path):
     spec = write(tmp_path / "arm.robot.yaml", PENDULUM.replace("continuous", "Continuous"))
     (tmp_path / "link.robot.yaml").symlink_to(spec)

@@ -82,6 +82,30 @@ def test_all_safe_fixes_are_one_action(editor: Editor, tmp_path: Path):
     assert applied(action, path, text) == text.replace("KG", "kg").replace("Fixed", "fixed")
 
 
+def test_a_safe_fix_that_brings_an_error_is_not_among_all(editor: Editor, tmp_path: Path):
+    """As in `check --fix`: with `Base` for `base`, the joints form a cycle."""
+    text = """\
+linkforge: 1
+name: a
+links: {Base: {}, t: {}, u: {}}
+joints:
+  j: {type: fixed, parent: Base, child: t}
+  k: {type: fixed, parent: t, child: base}
+  l: {type: fixed, parent: Base, child: u}
+"""
+    path = tmp_path / "arm.robot.yaml"
+    assert actions(editor, path, text, "base", ["source.fixAll"]) == []
+    other = text.replace("type: fixed, parent: Base, child: u", "type: Fixed, parent: Base, child: u")
+    (action,) = actions(editor, path, other, "base", ["source.fixAll"])
+    assert applied(action, path, other) == text
+
+
+def test_errors_that_a_syntax_error_hid_are_among_all(editor: Editor, tmp_path: Path):
+    path, text = tmp_path / "arm.robot.yaml", SPEC.replace("name: arm", "name:arm").replace("fixed", "Fixed")
+    (action,) = actions(editor, path, text, "name", ["source.fixAll"])
+    assert applied(action, path, text) == SPEC
+
+
 def test_a_text_that_does_not_parse_is_fixed(editor: Editor, tmp_path: Path):
     path, text = tmp_path / "arm.robot.yaml", SPEC.replace("name: arm", "name:arm")
     (action,) = actions(editor, path, text, "name:arm", ["quickfix"])
@@ -92,7 +116,8 @@ def test_only_what_is_asked_for_is_returned(editor: Editor, tmp_path: Path):
     path = tmp_path / "arm.robot.yaml"
     assert actions(editor, path, SPEC, "tpi", ["refactor"]) == []
     text = SPEC.replace("fixed", "Fixed")
-    assert {one.kind for one in actions(editor, path, text, "Fixed")} == {"quickfix", "source.fixAll.linkforge"}
+    assert {one.kind for one in actions(editor, path, text, "Fixed")} == {"quickfix"}
+    assert {one.kind for one in actions(editor, path, text, "Fixed", ["source"])} == {"source.fixAll.linkforge"}
 
 
 def test_there_is_nothing_to_do_away_from_a_diagnostic(editor: Editor, tmp_path: Path):
