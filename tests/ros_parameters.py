@@ -20,14 +20,22 @@ _INTEGER = re.compile(r"[-+]?(0x[0-9a-f]+|0[0-7]*|[1-9]\d*)", re.IGNORECASE)
 
 def parameters_in(text: str) -> dict[str, object]:
     """Return the parameters of a text by name, with a dot between the keys of nested maps."""
-    return dict(_parameters(_map(yaml.compose(text)), ()))
+    return _unique(_parameters(_map(yaml.compose(text)), ()))
 
 
 def nodes_in(text: str) -> dict[str, dict[str, object]]:
     """Return the parameters of each node of ROS by its name."""
     nodes = {name: _map(node) for name, node in _map(yaml.compose(text)).items()}
     assert all(list(node) == ["ros__parameters"] for node in nodes.values())
-    return {name: dict(_parameters(_map(node["ros__parameters"]), ())) for name, node in nodes.items()}
+    return {name: _unique(_parameters(_map(node["ros__parameters"]), ())) for name, node in nodes.items()}
+
+
+def _unique(parameters: Iterator[tuple[str, object]]) -> dict[str, object]:
+    """Return the parameters by name, of which no two are the same with their dots."""
+    items = list(parameters)
+    by_name = dict(items)
+    assert len(by_name) == len(items), f"a parameter is there twice: {[name for name, _ in items]}"
+    return by_name
 
 
 def _map(node: yaml.Node | None) -> dict[str, yaml.Node]:

@@ -6,13 +6,19 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
-from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER
+from linkforge_compile.core.models.controller import (
+    DEFAULT_BROADCASTER,
+    DEFAULT_TRAJECTORY,
+    JOINT_FIELDS,
+    MANAGER,
+    default_name,
+)
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
 from linkforge_compile.core.models.manager_parameters import (
     CONTROLLER,
     HARDWARE,
     SourcedText,
-    is_name_of_controller,
+    is_of_controller,
     listed_names,
 )
 from linkforge_compile.diagnostics.codes.names import (
@@ -60,11 +66,13 @@ def check_names_of_manager(robot: Robot, unresolved: UnresolvedNames) -> Iterato
     manager = robot.controllers.get(MANAGER)
     if manager is None:
         return
-    loaded = (name for name, value in manager.parameters.items() if is_name_of_controller(name, value))
+    loaded = [name for name, value in manager.parameters.items() if is_of_controller(value)]
+    groups = [group.name for group in robot.semantic.groups] if robot.has_semantic else []
+    defaults = (DEFAULT_BROADCASTER, DEFAULT_TRAJECTORY, *map(default_name, groups))
     stated = [one.name for one in robot.controllers if one.name != MANAGER]
     known = {
         HARDWARE: [system.name for system in robot.ros2_controls],
-        CONTROLLER: [*stated, *(name.partition(".")[0] for name in loaded)] if stated else [],
+        CONTROLLER: [*(stated or defaults), *loaded],
     }
     for kind, names in known.items():
         listed = [name for its, name in listed_names(manager.parameters) if its == kind]

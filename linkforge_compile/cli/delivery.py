@@ -33,8 +33,9 @@ def deliver(builds: Sequence[Build], arguments: argparse.Namespace, faults: tupl
         sources = dict.fromkeys(source for build in builds for source in build.sources)
         refuse_to_replace(sources, (*outputs, file_to_write(arguments.depfile)))
     chosen = select(_diagnostics_of(builds, faults), arguments)
-    write_to_stderr(format_diagnostics(chosen, arguments))
-    right = [build for build in builds if build.outputs and not errors_of(select(build.diagnostics, arguments))]
+    runs = [select(build.diagnostics, arguments) for build in builds]
+    write_to_stderr(format_diagnostics(chosen, arguments, runs))
+    right = [build for build, run in zip(builds, runs, strict=True) if build.outputs and not errors_of(run)]
     is_whole = len(right) == len(builds) and not faults
     if arguments.depfile is not None:
         # A build system prints its own status, and colcon shows any output on standard error as a warning.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
@@ -96,7 +96,7 @@ def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
 def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
     """Print the diagnostics that the options select, and return whether there is an error among them."""
     chosen = select(diagnostics, arguments)
-    write_to_stderr(format_diagnostics(chosen, arguments))
+    write_to_stderr(format_diagnostics(chosen, arguments, [chosen]))
     return bool(errors_of(chosen))
 
 
@@ -133,8 +133,10 @@ def write_to_stderr(text: str) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
-def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace) -> str:
-    """Return the diagnostics as text, in the form that the options choose."""
+def format_diagnostics(
+    diagnostics: tuple[Diagnostic, ...], arguments: argparse.Namespace, runs: Iterable[Collection[Diagnostic]]
+) -> str:
+    """Return the diagnostics as text, in the form that the options choose; `runs` are those of `count_losses`."""
     # GitHub resolves paths in annotations from the top of the checkout, wherever the build runs.
     root = Path(os.environ.get("GITHUB_WORKSPACE") or Path.cwd()).absolute()
     match arguments.diagnostics:
@@ -158,15 +160,16 @@ def format_diagnostics(diagnostics: tuple[Diagnostic, ...], arguments: argparse.
                 manual=lambda code: manual_page(code.id, styled=False),
                 pages=manual_folder(),
             )
-    return _format_text(diagnostics, arguments.color)
+    return _format_text(diagnostics, runs, arguments.color)
 
 
-def _format_text(diagnostics: tuple[Diagnostic, ...], color: str) -> str:
+def _format_text(diagnostics: tuple[Diagnostic, ...], runs: Iterable[Collection[Diagnostic]], color: str) -> str:
     if not diagnostics:
         return ""
     from linkforge_compile.diagnostics.render_text import render_first
+    from linkforge_compile.diagnostics.reports import count_losses
 
-    text = render_first(diagnostics, colour=is_colored(sys.stderr, color))
+    text = render_first(count_losses(diagnostics, runs), colour=is_colored(sys.stderr, color))
     if sys.stderr is None or not sys.stderr.isatty():
         return text
     worst = next((one for one in diagnostics if one.severity is Severity.ERROR), diagnostics[0])

@@ -64,6 +64,8 @@ class Diagnostic:
     """All diagnostics of the group that this one reports, empty for a single diagnostic."""
     fixes: tuple[Fix, ...] = ()
     """The ways to correct it by edits, the most likely first; of a group, those of its first member."""
+    is_only_counted: bool = False
+    """Whether text counts it and does not show it: a loss of a format that is not written."""
 
     @property
     def severity(self) -> Severity:
@@ -112,6 +114,8 @@ class Code:
     is_unknown_name: bool = False
     """Whether it reports an undeclared name, so that all uses of the name have one cause."""
     in_xml: str = ""
+    is_loss: bool = False
+    """Whether it reports what a format cannot hold of the robot, or holds in another way; no fault of the spec."""
     ends_report: bool = False
     """Whether it says that the report is incomplete: it comes last and is always shown."""
     subject: str = ""

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from unicodedata import combining, east_asian_width
 
-from linkforge_compile.diagnostics.codes import LOSS_CODES
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
 from linkforge_compile.source import Span
 
@@ -28,12 +27,11 @@ MOST_SHOWN = 100
 def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> str:
     """Return the first diagnostics, errors before others, as `render_text` does, and how many more there are.
 
-    Of each undeclared name only the first uses are shown. Diagnostics that end the report are always shown. While there
-    are errors, warnings about what a format cannot hold are counted only, as no format is written.
+    Of each undeclared name only the first uses are shown. Diagnostics that end the report are always shown. Losses that
+    `count_losses` marks are counted only.
     """
-    has_errors = any(one.severity is Severity.ERROR for one in diagnostics)
-    losses = [one for one in diagnostics if has_errors and _is_loss(one)]
-    diagnostics = tuple(_shorten_floods([one for one in diagnostics if not has_errors or not _is_loss(one)]))
+    losses = [one for one in diagnostics if one.is_only_counted]
+    diagnostics = tuple(_shorten_floods([one for one in diagnostics if not one.is_only_counted]))
     errors = [one for one in diagnostics if one.severity is Severity.ERROR][:MOST_SHOWN]
     others = [one for one in diagnostics if one.severity is not Severity.ERROR][: MOST_SHOWN - len(errors)]
     ends = [one for one in diagnostics if one.code.ends_report]
@@ -42,11 +40,6 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
     rest = [one for one in diagnostics if id(one) not in shown]
     text += f"… and {_counts(rest, Severity)} more\n" if rest else ""
     return text + f"{_counts(losses, Severity)} of formats not shown while there are errors\n" if losses else text
-
-
-def _is_loss(one: Diagnostic) -> bool:
-    """Whether a diagnostic is a warning or note about what a format cannot hold."""
-    return one.severity is not Severity.ERROR and one.code.id.startswith(LOSS_CODES)
 
 
 def _shorten_floods(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:

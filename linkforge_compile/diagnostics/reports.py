@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -142,17 +142,36 @@ def without_repeats(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]
     return group_alike(first.values())
 
 
+def count_losses(diagnostics: Iterable[Diagnostic], runs: Iterable[Collection[Diagnostic]]) -> tuple[Diagnostic, ...]:
+    """Return a report in which text only counts the losses of formats that no run writes, as each has errors.
+
+    The runs are those of the report, one for each spec and variant, with the severities that the user chose.
+    """
+    right = [run for run in runs if all(one.severity is not Severity.ERROR for one in run)]
+    written = {_look(one) for run in right for one in ungrouped(run) if one.code.is_loss}
+
+    def is_written(loss: Diagnostic) -> bool:
+        return any(_look(one) in written for one in ungrouped([loss]))
+
+    return tuple(
+        replace(one, is_only_counted=True)
+        if one.code.is_loss and one.severity is not Severity.ERROR and not is_written(one)
+        else one
+        for one in diagnostics
+    )
+
+
 def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic, ...]:
     """Return what any of the runs over a spec reported, in reading order, with a note if only some of them did.
 
     The runs are named as after "with": "the defaults", "variant 'sim'". Each run read the files anew, so diagnostics
     are equal if a person sees no difference: by code, place and message.
     """
-    first: dict[tuple[str, str, str, int], Diagnostic] = {}
-    runs_of: dict[tuple[str, str, str, int], list[str]] = {}
+    first: dict[Hashable, Diagnostic] = {}
+    runs_of: dict[Hashable, list[str]] = {}
     for run, diagnostics in runs.items():
         for one in ungrouped(diagnostics):
-            key = (one.code.id, str(one.span), one.message, one.full_text_hash)
+            key = _look(one)
             first.setdefault(key, one)
             runs_of.setdefault(key, []).append(run)
     merged = []
@@ -162,6 +181,11 @@ def merge_reports(runs: Mapping[str, Iterable[Diagnostic]]) -> tuple[Diagnostic,
         elif one.code is not NOTHING_TO_IGNORE:  # a suppression that is used in one of the runs is useful
             merged.append(_with_note(one, runs_of[key]))
     return group_alike(sorted(merged, key=lambda one: one.order))
+
+
+def _look(one: Diagnostic) -> Hashable:
+    """Return a key that is equal for diagnostics of two runs between which a person sees no difference."""
+    return one.code.id, str(one.span), one.message, one.full_text_hash
 
 
 def _with_note(diagnostic: Diagnostic, runs: list[str]) -> Diagnostic:

@@ -178,7 +178,10 @@ class RobotDescription:
         from linkforge_compile.diagnostics.render_text import render_first, render_text
 
         if compilation.robot is None:
-            raise SubstitutionFailure(f"{self.spec} has errors:\n{render_first(compilation.diagnostics)}")
+            from linkforge_compile.diagnostics.reports import count_losses
+
+            shown = count_losses(compilation.diagnostics, [compilation.diagnostics])
+            raise SubstitutionFailure(f"{self.spec} has errors:\n{render_first(shown)}")
         logger = launch.logging.get_logger("linkforge")
         for severity, log in ((Severity.WARNING, logger.warning), (Severity.NOTE, logger.info)):
             if selected := tuple(one for one in compilation.diagnostics if one.severity is severity):

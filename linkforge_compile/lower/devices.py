@@ -29,6 +29,7 @@ from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_elemen
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_in
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
+from linkforge_compile.lower.nested_keys import with_nested_keys
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
 from linkforge_compile.source import Key, SourceRef
 from linkforge_compile.source.span import Located, ModuleUse
@@ -133,6 +134,7 @@ def _lower_control(fields: Fields, name: str) -> Ros2Control | None:
 
 
 def _lower_controller(fields: Fields, name: str) -> Controller | None:
+    fields = with_nested_keys(fields, "parameters")
     if name == MANAGER:
         return _lower_manager(fields)
     type_ = fields.text("type", required="joint_trajectory_controller/JointTrajectoryController")

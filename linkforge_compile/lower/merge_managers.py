@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -55,8 +56,8 @@ class ManagerMerger:
                 continue
             first, first_name = self._stated_by[path]
             notes = [
-                Note(f"that of module '{one.name}' is here", name.source.node.span)
-                for one, name in ((first, first_name), (module, path[-1]))
+                Note(f"in module '{one.name}' it is {_shown(stated)}", name.source.node.span)
+                for one, name, stated in ((first, first_name, values[path]), (module, path[-1], value))
                 if isinstance(name, SourcedText) and name.source
             ]
             facts = {"first": first.name, "second": module.name, "parameter": ".".join(path)}
@@ -89,6 +90,11 @@ def _joined(own: object, other: object, listed: Collection[str]) -> object:
     if not (isinstance(own, tuple) and isinstance(other, tuple)):
         return own or other
     return (*own, *(name for name in other if name not in own and name not in listed))
+
+
+def _shown(value: object) -> str:
+    """Return a value as YAML has it."""
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _leaves(parameters: Mapping[str, object], path: Path = ()) -> Iterator[tuple[Path, object]]:

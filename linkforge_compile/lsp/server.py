@@ -27,6 +27,7 @@ from linkforge_compile.lsp.hover import hover
 from linkforge_compile.lsp.inlay_hints import HintOptions, inlay_hints
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.semantic_tokens import LEGEND, semantic_tokens
 from linkforge_compile.lsp.symbols import find_symbols, outline
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
 from linkforge_compile.roots import identity
@@ -277,6 +278,11 @@ def _add_hints(server: SpecServer) -> None:
             return []
         start, end = document.place(params.range.start), document.place(params.range.end)
         return await server.in_thread(partial(inlay_hints, document, start, end, server.hints))
+
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND)
+    async def _classify(params: types.SemanticTokensParams) -> types.SemanticTokens:
+        document = await server.analysed(params.text_document.uri)
+        return semantic_tokens(document) if document else types.SemanticTokens([])
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
     async def _link(params: types.DocumentLinkParams) -> list[types.DocumentLink]:

@@ -3,7 +3,7 @@
 from lxml import etree
 
 from linkforge_compile import compile_text
-from linkforge_compile.diagnostics.codes.formats import NO_ACTUATOR, NO_MESSAGES, NO_VELOCITY_LIMIT
+from linkforge_compile.diagnostics.codes.simulators import NO_ACTUATOR, NO_MESSAGES, NO_VELOCITY_LIMIT
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.formats import MJCF, Rendering
 

@@ -172,6 +172,47 @@ def test_losses_of_a_format_are_counted_while_there_are_errors(
     assert "not shown" not in report
 
 
+def test_errors_of_one_spec_hide_no_losses_of_another_that_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    Path("good.robot.yaml").write_text(LOSSY)
+    Path("bad.robot.yaml").write_text(LOSSY.replace("child: rod", "child: rood"))
+    words = ("good.robot.yaml", "bad.robot.yaml")
+    for command in (["compile", *words, "--format", "mjcf", "-o", "out/"], ["check", *words, "--for", "mjcf"]):
+        assert main(command) == 1
+        report = capsys.readouterr().err
+        shown = [line.split(":")[0] for line in report.splitlines() if "MuJoCo does not limit velocities" in line]
+        assert shown == ["good.robot.yaml"]
+        assert "1 warning, 1 note of formats not shown while there are errors\n" in report
+    assert (tmp_path / "out" / "good.mjcf").is_file()
+
+
+def test_errors_of_one_variant_hide_no_losses_of_another_that_is_written(capsys: pytest.CaptureFixture[str]):
+    variants = "parameters: {end: {type: string, default: rod}}\nvariants: {ok: {end: rod}, bad: {end: rood}}\n"
+    Path("arm.robot.yaml").write_text(
+        LOSSY.replace("links:", f"{variants}links:").replace("child: rod", "child: $(end)")
+    )
+    words = ["arm.robot.yaml", "--variant", "ok", "--variant", "bad"]
+    for command in (["compile", *words, "--format", "mjcf", "-o", "out/"], ["check", *words, "--for", "mjcf"]):
+        assert main(command) == 1
+        report = capsys.readouterr().err
+        assert "warning: MuJoCo does not limit velocities" in report
+        assert "not shown" not in report
+
+
+def test_errors_hide_no_faults_of_controllers(capsys: pytest.CaptureFixture[str]):
+    """A misspelt class is no loss of the format: it is to be mended, as the error is."""
+    Path("arm.robot.yaml").write_text(
+        LOSSY.replace("child: rod", "child: rood")
+        + "ros2_control: {hw: {hardware_plugin: mock_components/GenericSystem, joints: {one: }}}\n"
+        + "controllers: {c: {type: joint_trajectory_controller/JointTrajectoryContoller, joints: [one]}}\n"
+    )
+    assert main(["check", "arm.robot.yaml", "--for", "ros2_controllers"]) == 1
+    report = capsys.readouterr().err
+    assert "[LF7613]" in report
+    assert "not shown" not in report
+
+
 def test_strict_leaves_warnings_about_the_robot_as_they_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     Path("arm.robot.yaml").write_text(
         SPEC.replace("  base:", "  base: {inertial: {mass: 1 kg, inertia: {ixx: 1, iyy: 1, izz: 5}}}")

@@ -7,7 +7,7 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.core import Robot
-from linkforge_compile.diagnostics.codes.formats import IMPOSSIBLE_FOR_MUJOCO, MASSLESS_IN_MUJOCO
+from linkforge_compile.diagnostics.codes.simulators import IMPOSSIBLE_FOR_MUJOCO, MASSLESS_IN_MUJOCO
 from linkforge_compile.formats import MJCF
 from linkforge_compile.formats.render import render_urdf
 from tests.conftest import ROOT

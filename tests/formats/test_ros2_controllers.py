@@ -341,8 +341,8 @@ controllers:
     written = controller("arm", text)
     assert written["update_rate"] == 50
     assert type(written["update_rate"]) is int
-    assert type(written["constraints.goal_time"]) is float
-    assert written["constraints"] == {"shoulder": {"goal": 0.01, "trajectory": 1.0}}
+    assert written["constraints"] == {"goal_time": 1.0, "shoulder": {"goal": 0.01, "trajectory": 1.0}}
+    assert type(written["constraints"]["goal_time"]) is float
     assert type(written["gains"]["shoulder"]["p"]) is float
     manager = controller("controller_manager", text)
     assert type(manager["diagnostics"]["threshold"]["controllers"]["periodicity"]["mean_error"]["warn"]) is float
@@ -705,12 +705,57 @@ def test_the_file_that_uses_modules_states_the_initial_state_of_their_hardware(t
     assert manager[f"{start}.shutdown_on_initial_state_failure"] is True
 
 
+def test_names_in_lists_are_merged_however_their_keys_are_written(tmp_path: Path):
+    maps = "hardware_components_initial_state: {inactive: [all], shutdown_on_initial_state_failure: false}"
+    dots = "hardware_components_initial_state.inactive: [all]"
+    assert maps in ARM_WITH_MANAGER
+    spec = two_arms(tmp_path, of_right=ARM_WITH_MANAGER.replace(maps, dots))
+    assert manager_of(spec)["hardware_components_initial_state.inactive"] == ["l_all", "r_all"]
+    own = "{hardware_components_initial_state.unconfigured: [l_all]}"
+    spec = two_arms(tmp_path, own=f"controllers: {{controller_manager: {{parameters: {own}}}}}\n")
+    assert manager_of(spec)["hardware_components_initial_state.inactive"] == ["r_all"]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "key", "place"),
+    [
+        ("constraints.goal_time: 1.0, constraints: {goal_time: 2.0}", "constraints.goal_time", "goal_time"),
+        ("constraints: {shoulder: {goal: 1}, shoulder.goal: 1}", "constraints.shoulder.goal", "goal"),
+    ],
+)
+def test_a_parameter_is_written_once_with_a_dot_or_in_a_map(parameters: str, key: str, place: str):
+    own = f"controllers: {{own: {{type: {TRAJECTORY}, joints: [elbow], parameters: {{{parameters}}}}}}}"
+    (found,) = compile_text(f"linkforge: 1\nname: robot\n{ROBOT}{own}\n").diagnostics
+    assert found.code.id == "LF1101"
+    assert found.message == f"the key '{key}' is written twice; a dot is the same as a map in a map"
+    assert found.span
+    assert found.span.text == place
+
+
+def test_a_value_does_not_hide_the_parameters_below_its_name():
+    text = f"{ROBOT}controllers: {{own: {{type: a/B, parameters: {{pid: 1, pid.p: 2, off: null, off.by: 3}}}}}}\n"
+    assert nodes_in(rendered(text))["own"] == {"pid": 1, "pid.p": 2, "off.by": 3}
+
+
+def test_a_joint_with_dots_in_its_name_has_gains():
+    robot = ROBOT.replace("elbow", "arm.elbow").replace(
+        "command_interfaces: [position]", "command_interfaces: [effort]"
+    )
+    own = f"{{type: {TRAJECTORY}, joints: [arm.elbow], parameters: {{gains: {{arm.elbow: {{p: 1, pp: 2}}}}}}}}"
+    text = f"{robot}controllers: {{own: {own}, o: {{type: a/B}}}}\n"
+    assert [one.split(";")[0] for one in reported(text)] == [
+        f"LF7611 {OF_TRAJECTORIES} has no parameter 'pp' in 'gains.arm.elbow'"
+    ]
+    assert type(nodes_in(rendered(text))["own"]["gains.arm.elbow.p"]) is float
+
+
 def test_modules_may_not_disagree_about_a_parameter_in_a_map(tmp_path: Path):
     other = ARM_WITH_MANAGER.replace("failure: false", "failure: true")
     (found,) = compile_file(two_arms(tmp_path, of_right=other)).diagnostics
     assert found.code.id == "LF4111"
     assert "'hardware_components_initial_state.shutdown_on_initial_state_failure'" in found.message
     assert [note.span.text for note in found.notes if note.span] == ["false", "true"]
+    assert [note.message for note in found.notes] == ["in module 'left' it is false", "in module 'right' it is true"]
 
 
 def test_derived_values_lead_to_what_they_follow_from():
@@ -733,7 +778,8 @@ def test_parameters_of_merged_managers_lead_to_the_files_of_their_modules(tmp_pa
     found = {line: place.span.file.name for line, place in places.items() if place}
     assert found["update_rate: 500"].endswith("arm.robot.yaml")
     assert found["handle_exceptions: true"].endswith("right.robot.yaml")
-    assert found["r_later.type: c/D"].endswith("right.robot.yaml")
+    assert found["r_later:"].endswith("right.robot.yaml")
+    assert found["type: c/D"].endswith("right.robot.yaml")
 
 
 @pytest.mark.parametrize("parameters", ["own: {type: c/D}", "own.type: c/D"])
@@ -743,6 +789,24 @@ def test_the_manager_has_no_other_class_of_a_controller(parameters: str):
         "LF7621 controller 'own' has 'type' in `parameters` of 'controller_manager', and `type` for the same; remove "
         "one of them"
     ]
+
+
+@pytest.mark.parametrize(("name", "value"), [("own", "5"), ("update_rate", "3")])
+def test_the_manager_has_no_value_under_the_name_of_a_controller(name: str, value: str):
+    manager = f"controller_manager: {{parameters: {{{name}: {value}}}}}"
+    assert reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}, {manager}}}\n") == [
+        f"LF7621 controller '{name}' has '{name}' in `parameters` of 'controller_manager', and `controllers` for the "
+        "same; remove one of them"
+    ]
+
+
+def test_a_fallback_of_a_robot_with_default_controllers_exists():
+    fallbacks = "[arm_controler, arm_controller, joint_state_broadcaster]"
+    manager = f"controller_manager: {{parameters: {{arm_controller: {{fallback_controllers: {fallbacks}}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}{ARM_GROUP}controllers: {{{manager}}}\n"
+    (found,) = (one for one in compile_text(text).diagnostics if one.code.id == "LF4112")
+    assert found.span
+    assert found.span.text == "arm_controler"
 
 
 @pytest.mark.parametrize(

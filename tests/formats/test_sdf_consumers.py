@@ -11,7 +11,7 @@ from lxml import etree
 
 from linkforge_compile import compile_file
 from linkforge_compile.core import Robot
-from linkforge_compile.diagnostics.codes.formats import IMPOSSIBLE_FOR_GAZEBO
+from linkforge_compile.diagnostics.codes.simulators import IMPOSSIBLE_FOR_GAZEBO
 from linkforge_compile.formats import SDF, Rendering
 from linkforge_compile.formats.render import render_urdf
 from tests.conftest import ROOT

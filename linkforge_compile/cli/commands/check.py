@@ -160,7 +160,8 @@ def _report_of(checks: Mapping[str, _Check], faults: Iterable[Diagnostic], argum
     wholes = [check for spec, check in checks.items() if spec not in parts]
     diagnostics = (*faults, *(one for check in wholes for one in check.report.diagnostics))
     watched = tuple(dict.fromkeys(file for check in checks.values() for file in (*check.report.files, *check.unread)))
-    return _Report(tuple(wholes), select(without_repeats(diagnostics), arguments), watched)
+    runs = tuple(select(run, arguments) for check in wholes for run in check.runs)
+    return _Report(tuple(wholes), select(without_repeats(diagnostics), arguments), runs, watched)
 
 
 def _check(
@@ -179,7 +180,7 @@ def _print(report: _Report, arguments: argparse.Namespace) -> None:
     """Print text for people on standard error, forms for programs on standard output, and a summary."""
     from linkforge_compile.diagnostics.render_text import summary
 
-    text = format_diagnostics(report.diagnostics, arguments)
+    text = format_diagnostics(report.diagnostics, arguments, report.runs)
     if arguments.diagnostics == "text":
         write_to_stderr(text)
     else:
@@ -193,19 +194,24 @@ def _print(report: _Report, arguments: argparse.Namespace) -> None:
 
 
 class _Check(NamedTuple):
-    """The report of a spec, how many of its variants were checked and how many were not, and the files it lacked."""
+    """The report of a spec, and those of its variants, how many were checked and how many not, the files it lacked."""
 
     report: SpecReport
+    runs: tuple[tuple[Diagnostic, ...], ...]
     variants: int
     unchecked: int
     unread: tuple[Path, ...]
 
 
 class _Report(NamedTuple):
-    """The checks of the specs that are no parts of others, the diagnostics to show, and all files read or sought."""
+    """The checks of the specs that are no parts of others, the diagnostics to show, and all files read or sought.
+
+    `runs` are the diagnostics of each spec and variant by themselves.
+    """
 
     wholes: tuple[_Check, ...]
     diagnostics: tuple[Diagnostic, ...]
+    runs: tuple[tuple[Diagnostic, ...], ...]
     watched: tuple[Path, ...]
 
 
@@ -221,7 +227,7 @@ def _merge_runs(compilations: _Compilations) -> _Check:
     files = [file for one in checked.values() for file in one.files]
     unread = tuple(file for one in checked.values() for file in one.unread)
     report = SpecReport(merge_reports(runs), files)
-    return _Check(report, len(checked) - 1, len(compilations) - len(checked), unread)
+    return _Check(report, tuple(runs.values()), len(checked) - 1, len(compilations) - len(checked), unread)
 
 
 def _variants_summary(checks: Iterable[_Check]) -> str:

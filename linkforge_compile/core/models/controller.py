@@ -12,6 +12,15 @@ from linkforge_compile.core.part import Element, FrozenMap, extras_last
 MANAGER = "controller_manager"
 """The name of the entry with the parameters of the manager itself, which has no type."""
 
+DEFAULT_BROADCASTER, DEFAULT_TRAJECTORY = "joint_state_broadcaster", "joint_trajectory_controller"
+"""The names of the controllers that a robot without any has, apart from those of its planning groups."""
+
+
+def default_name(group: str) -> str:
+    """Return the name of the controller of a planning group that a robot without controllers has."""
+    return f"{group}_controller"
+
+
 JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
 """The fields of a controller with names of joints."""
 

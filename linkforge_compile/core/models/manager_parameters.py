@@ -48,22 +48,18 @@ class ListedName(NamedTuple):
 
 
 def kind_of_names(path: tuple[str, ...]) -> str | None:
-    """Return what the names in the list at a path are those of, HARDWARE or CONTROLLER; None for all other paths.
-
-    As in ROS 2, a name with dots is the same as maps in each other.
-    """
-    match ".".join(path).split("."):
-        case [outer, inner] if outer == _INITIAL_STATE and inner in _STATES:
+    """Return what the names in the list at a path are those of, HARDWARE or CONTROLLER; None for all other paths."""
+    match path:
+        case (outer, inner) if outer == _INITIAL_STATE and inner in _STATES:
             return HARDWARE
-        case [_, "fallback_controllers"]:
+        case (_, "fallback_controllers"):
             return CONTROLLER
     return None
 
 
-def is_name_of_controller(key: str, value: object) -> bool:
-    """Whether a key of the parameters is the name of a controller, for what the manager has of it."""
-    inner = value if isinstance(value, Mapping) else (key.partition(".")[2],)
-    return any(name.partition(".")[0] in _OF_CONTROLLER for name in inner)
+def is_of_controller(value: object) -> bool:
+    """Whether a parameter is what the manager has of a controller, under its name."""
+    return isinstance(value, Mapping) and not _OF_CONTROLLER.isdisjoint(value)
 
 
 def listed_names(parameters: Mapping[str, object], path: tuple[str, ...] = ()) -> Iterator[ListedName]:
@@ -81,7 +77,7 @@ def with_prefixed_names(parameters: Mapping[str, object], prefix: str) -> Mappin
     """Return the parameters with a prefix before the names of hardware and controllers."""
     return FrozenMap(
         {
-            _prefixed(key, prefix) if is_name_of_controller(key, value) else key: _with_prefix(value, (key,), prefix)
+            _prefixed(key, prefix) if is_of_controller(value) else key: _with_prefix(value, (key,), prefix)
             for key, value in parameters.items()
         }
     )
@@ -101,21 +97,10 @@ def _prefixed(name: str, prefix: str) -> str:
     return SourcedText(prefix + name, name.source) if isinstance(name, SourcedText) else prefix + name
 
 
-class LoadedClass(NamedTuple):
-    """The class of a controller in the parameters of the manager, and the names that lead to it there."""
-
-    path: tuple[str, ...]
-    type: object
-
-
-def loaded_class(parameters: Mapping[str, object], controller: str) -> LoadedClass | None:
+def loaded_class(parameters: Mapping[str, object], controller: str) -> object:
     """Return the class of a controller that the parameters of the manager state; None if they do not."""
-    for key, value in parameters.items():
-        if key == f"{controller}.type":
-            return LoadedClass((key,), value)
-        if key == controller and isinstance(value, Mapping):
-            return next((LoadedClass((key, name), one) for name, one in value.items() if name == "type"), None)
-    return None
+    stated = parameters.get(controller)
+    return stated.get("type") if isinstance(stated, Mapping) else None
 
 
 def place_of_parameter(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:

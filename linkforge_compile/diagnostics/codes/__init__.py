@@ -14,13 +14,26 @@ from linkforge_compile.diagnostics.codes import (
     names,
     physics,
     schema,
+    simulators,
     syntax,
 )
 from linkforge_compile.diagnostics.diagnostic import Code
 
 REGISTER: dict[str, Code] = {
     code.id: code
-    for family in (syntax, schema, modules, expressions, names, model, physics, formats, collisions, importing)
+    for family in (
+        syntax,
+        schema,
+        modules,
+        expressions,
+        names,
+        model,
+        physics,
+        formats,
+        simulators,
+        collisions,
+        importing,
+    )
     for code in vars(family).values()
     if isinstance(code, Code)
 }
@@ -28,6 +41,3 @@ REGISTER: dict[str, Code] = {
 
 OUTPUT_CODES = "LF7"
 """How the codes about outputs begin; which of them a compile reports depends on its formats."""
-
-LOSS_CODES = ("LF74", "LF75", "LF76")
-"""How the codes about what a format other than URDF and SRDF cannot hold begin."""

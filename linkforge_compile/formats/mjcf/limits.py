@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
 from linkforge_compile.core.models.joint import SINGLE_AXIS
 from linkforge_compile.core.models.srdf import VirtualJointType
-from linkforge_compile.diagnostics.codes.formats import (
+from linkforge_compile.diagnostics.codes.simulators import (
     BASE_STAYS_FIXED,
     FOR_OTHER_PROGRAMS,
     IMPOSSIBLE_FOR_MUJOCO,

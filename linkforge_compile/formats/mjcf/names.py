@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.diagnostics.codes.formats import TAKEN_IN_MUJOCO
+from linkforge_compile.diagnostics.codes.simulators import TAKEN_IN_MUJOCO
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.joints import free_joint_name, part_names
 from linkforge_compile.formats.mjcf.keyframes import states_of

@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER, Controller
+from linkforge_compile.core.models.controller import (
+    DEFAULT_BROADCASTER,
+    DEFAULT_TRAJECTORY,
+    JOINT_FIELDS,
+    MANAGER,
+    Controller,
+    default_name,
+)
 from linkforge_compile.core.models.controller_kinds import FORWARD, GRIPPER, STATES, TRAJECTORY, lift_parameters
 from linkforge_compile.core.models.manager_parameters import loaded_class
 from linkforge_compile.diagnostics.enumerations import listed
@@ -102,7 +109,7 @@ def _default_controllers(robot: Robot) -> Iterator[Completed]:
 
     Groups of other groups come last, so that each arm has a controller, and not all of them one.
     """
-    yield Completed(Controller("joint_state_broadcaster", STATES), {})
+    yield Completed(Controller(DEFAULT_BROADCASTER, STATES), {})
     hardware, groups = commanded_joints(robot), joints_by_group(robot)
     tools = {effector.group for effector in robot.semantic.end_effectors} if groups else frozenset[str]()
     stated = {group.name: group for group in robot.semantic.groups} if groups else {}
@@ -113,13 +120,13 @@ def _default_controllers(robot: Robot) -> Iterator[Completed]:
             continue
         taken.update(joints)
         is_gripper = name in tools and len(joints) == 1 and "position" in hardware[joints[0]].command_interfaces
-        controller = Controller(f"{name}_controller", GRIPPER if is_gripper else TRAJECTORY, name)
+        controller = Controller(default_name(name), GRIPPER if is_gripper else TRAJECTORY, name)
         yield Completed(controller.with_source(stated[name].source), {})
     joints = [joint.name for joint in actuated_joints(robot) if joint.name in hardware]
     if joints and not groups:
         why = "the joints that have a command interface in `ros2_control`"
         of_hardware = Derived(tuple(joints), why, f"joint '{joints[0]}' of `ros2_control`", hardware[joints[0]].source)
-        all_joints = Completed(Controller("joint_trajectory_controller", TRAJECTORY), {})
+        all_joints = Completed(Controller(DEFAULT_TRAJECTORY, TRAJECTORY), {})
         yield _with_derived(all_joints, joints=of_hardware)
 
 

@@ -50,8 +50,11 @@ def check_controllers(robot: Robot) -> Iterator[Diagnostic]:
     controllers, hardware = complete_controllers(robot), commanded_joints(robot)
     yield from check_refused(robot, controllers)
     if manager := robot.controllers.get(MANAGER):
-        loaded = (name for name, value in manager.parameters.items() if isinstance(value, Mapping) and "type" in value)
-        yield from check_parameters(manager, MANAGER, {*loaded, *(one.name for one in controllers)})
+        names = {one.name for one in controllers}
+        maps = {key: value for key, value in manager.parameters.items() if isinstance(value, Mapping)}
+        others = {key: value for key, value in manager.parameters.items() if key not in {*maps, *names}}  # LF7621
+        loaded = {name for name, value in maps.items() if "type" in value}
+        yield from check_parameters(manager.with_fields(parameters={**maps, **others}), MANAGER, names | loaded)
     for controller in controllers:
         if intended := misspelled_class(controller.type):
             yield MISSPELLED_CLASS.at(controller.source, "type", type=controller.type, intended=intended)
@@ -77,10 +80,9 @@ def _check_gains(controller: Controller) -> Iterator[Diagnostic]:
     if controller.type != TRAJECTORY or commands not in {("effort",), ("velocity",)} or is_open:
         return
     gains = parameters.get("gains")
-    with_gains = {name.split(".")[0] for name in gains} if isinstance(gains, Mapping) else set()
-    dotted = {name.split(".")[1] for name in parameters if name.startswith("gains.")}
     for joint in controller.joints:
-        if joint not in with_gains | dotted:
+        # A name with dots is nested maps.
+        if not isinstance(gains, Mapping) or joint.partition(".")[0] not in gains:
             yield NO_GAINS.at(controller.source, controller=controller.name, joint=joint, interface=commands[0])
 
 

@@ -194,20 +194,24 @@ def find_misfits(
             if type_ and value is not None and not _fits(convert(value, type_), type_):
                 yield Misfit((*path, name), type_, value, ())
         elif isinstance(value, Mapping):
-            yield from find_misfits(value, type_, names, (*path, name))
+            yield from find_misfits(value, type_, (*names, *names_below(name, names)), (*path, name))
         elif value is not None:
             yield Misfit((*path, name), "a map of parameters", value, ())
 
 
 def type_of(name: str, declared: Mapping[str, Type], named: Iterable[str]) -> Type | None:
-    """Return the type of a parameter, whose name may have dots (`constraints.goal_time`); None if it has none."""
-    if name in declared:
-        return declared[name]
-    if NAMED in declared and name in named:
-        return declared[NAMED]
-    first, _, rest = name.partition(".")
-    inner = type_of(first, declared, named) if rest else None
-    return inner if isinstance(inner, str) or inner is None else type_of(rest, inner, named)
+    """Return the type of a parameter, None if it has none; a name in `named` with dots is in nested maps."""
+    of_names = declared.get(NAMED)
+    if name in declared or of_names is None:
+        return declared.get(name)
+    if names_below(name, named) and isinstance(of_names, Mapping):
+        return {**of_names, NAMED: of_names}
+    return of_names if name in named else None
+
+
+def names_below(name: str, named: Iterable[str]) -> tuple[str, ...]:
+    """Return the rest of each name with dots that begins with `name`."""
+    return tuple(one.removeprefix(f"{name}.") for one in named if one.startswith(f"{name}."))
 
 
 def convert(value: object, type_: Type) -> object:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field, stated_field
-from linkforge_compile.core.models.manager_parameters import loaded_class, place_of_parameter
+from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import (
     NO_NAME_OF_A_NODE,
@@ -38,6 +38,7 @@ def check_refused(robot: Robot, completed: Iterable[Controller]) -> Iterator[Dia
     for controller in completed:
         yield from _check_name(controller)
         if manager:
+            yield from _check_names_of_values(manager, controller)
             yield from _check_loaded_class(manager, controller)
         if not has_faulty_names(robot, controller):
             yield from _check_single_fields(controller)
@@ -70,12 +71,24 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
             yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, owner="", **facts)
 
 
+def _check_names_of_values(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
+    """The manager has a map under the name of a controller, and no value, for which there is no place in the file."""
+    for key, value in manager.parameters.items():
+        if key == controller.name and value is not None and not isinstance(value, Mapping):
+            notes = [Note("the controller is here", controller.source.span)] if controller.source else []
+            place = place_of_parameter(manager.source, "parameters", key)
+            owner = f" of '{MANAGER}'"
+            yield STATED_TWICE.at(*place, notes=notes, controller=key, parameter=key, owner=owner, field="controllers")
+
+
 def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
     """The class of a controller is not another one in the parameters of the manager."""
-    loaded = loaded_class(manager.parameters, controller.name)
-    if loaded and loaded.type != controller.type:
-        notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
-        place, owner = place_of_parameter(manager.source, "parameters", *loaded.path), f" of '{MANAGER}'"
-        yield STATED_TWICE.at(
-            *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
-        )
+    stated = manager.parameters.get(controller.name)
+    for key, value in stated.items() if isinstance(stated, Mapping) else ():
+        if key == "type" and value != controller.type:
+            notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
+            place = place_of_parameter(manager.source, "parameters", controller.name, key)
+            owner = f" of '{MANAGER}'"
+            yield STATED_TWICE.at(
+                *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
+            )

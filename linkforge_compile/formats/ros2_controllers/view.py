@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
@@ -10,7 +10,7 @@ from linkforge_compile.core.models.controller_kinds import kind_of, path_of_fiel
 from linkforge_compile.core.models.manager_parameters import place_of_parameter
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.ros2_controllers.complete import completed_controllers
-from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, type_of
+from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, names_below, type_of
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def controllers_view(robot: Robot) -> View:
     manager = robot.controllers.get(MANAGER)
     stated = typed_parameters(manager) if manager else {}
     controllers = [_view(one, stated.get(one.controller.name)) for one in completed_controllers(robot)]
-    elsewhere = {key for one in controllers for key in (one.name, f"{one.name}.type")}
+    elsewhere = {one.name for one in controllers}
     own = {key: value for key, value in stated.items() if key not in elsewhere}
     return View(
         manager=own if "update_rate" in own else {"update_rate": UPDATE_RATE, **own},
@@ -71,17 +71,18 @@ def typed_parameters(controller: Controller) -> dict[str, object]:
     """Return the parameters; where the type of one is known, quantities in SI units and numbers with decimals."""
     values = _placed(controller.parameters, controller.source, "parameters")
     declared = PARAMETERS.get(MANAGER if controller.name == MANAGER else controller.type or "")
-    return values if declared is None else _converted(values, declared)
+    return values if declared is None else _converted(values, declared, controller.joints)
 
 
-def _converted(values: dict[str, object], declared: Mapping[str, Type]) -> dict[str, object]:
+def _converted(values: dict[str, object], declared: Mapping[str, Type], joints: Collection[str]) -> dict[str, object]:
     converted: dict[str, object] = {}
     for name, value in values.items():
-        type_ = type_of(name, declared, values) or ANY
+        type_ = type_of(name, declared, (*joints, *values)) or ANY
         if isinstance(type_, str):
             converted[name] = convert(value, type_)
         else:
-            converted[name] = _converted(value, type_) if isinstance(value, dict) else value
+            inner = (*joints, *names_below(name, joints))
+            converted[name] = _converted(value, type_, inner) if isinstance(value, dict) else value
     return converted
 
 

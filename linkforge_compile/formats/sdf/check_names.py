@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.diagnostics.codes.formats import (
+from linkforge_compile.diagnostics.codes.simulators import (
     NO_COLLISION_IN_SDF,
     RENAMED_IN_SDF,
     RENAMED_SHAPE_IN_SDF,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.diagnostics.codes.formats import (
+from linkforge_compile.diagnostics.codes.simulators import (
     CLASSIC_IN_SDF,
     FREE_IN_SDF,
     IMPOSSIBLE_FOR_GAZEBO,
