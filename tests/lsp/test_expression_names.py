@@ -126,20 +126,6 @@ def test_a_new_name_that_cannot_be_is_refused(editor: Editor, robot: Path, new: 
         renamed(editor, robot / "arm.robot.yaml", ARM.replace("  reach:", "  re¦ach:"), new)
 
 
-def test_a_name_that_only_a_variant_computes_otherwise_is_refused(editor: Editor, robot: Path):
-    text = """\
-linkforge: 1
-name: arm
-parameters: {reach: {type: number, default: 2}}
-variables: {half: $(reach / 2)}
-variants: {long: {reach: 4}}
-links:
-  base$(i): {for: {i: [1]}, visuals: [{box: ["$(half)", 1, 1]}]}
-"""
-    with pytest.raises(JsonRpcException, match="differ in more than the name"):
-        renamed(editor, robot / "other.robot.yaml", text.replace("{half", "{¦half"), "i")
-
-
 def test_a_symbolic_link_to_a_spec_is_the_spec(editor: Editor, robot: Path):
     link = robot / "link.robot.yaml"
     link.symlink_to(robot / "arm.robot.yaml")
