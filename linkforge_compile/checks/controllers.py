@@ -14,13 +14,8 @@ from linkforge_compile.core.models.controller import (
     default_name,
 )
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
-from linkforge_compile.core.models.manager_parameters import (
-    CONTROLLER,
-    HARDWARE,
-    SourcedText,
-    is_of_controller,
-    listed_names,
-)
+from linkforge_compile.core.models.manager_parameters import CONTROLLER, HARDWARE, is_of_controller, listed_names
+from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_GROUP,
     UNKNOWN_HARDWARE_SENSOR,

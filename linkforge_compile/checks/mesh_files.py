@@ -21,7 +21,7 @@ from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolver
 from linkforge_compile.diagnostics import UnresolvedNames
-from linkforge_compile.diagnostics.suggest import nearest
+from linkforge_compile.diagnostics.suggest import is_misspelling, nearest
 from linkforge_compile.roots import ANYWHERE, exists, identity, is_file, package_name
 
 HEADER, TRIANGLE = 84, 50
@@ -167,18 +167,20 @@ class MeshFinder:
         return path if exists(path) else self._resolve(f"package://{package}/{inside}") or path
 
     def misspelt_package(self, resource: str) -> tuple[str, str] | None:
-        """Return the package of a mesh path that is not found, and one with a name like it that has the file.
+        """Return the package of a mesh path that is not found, and that of which its name is a misspelling.
 
-        None if there is none such among the declared packages and those above the spec: the package may be one that
-        this machine lacks.
+        None if none of the declared packages, and of those above the spec, is it and has the file: the package may be
+        one that this machine lacks.
         """
         scheme, _, rest = resource.partition("://")
         package, _, inside = rest.partition("/")
         if scheme != "package" or package not in self._packages or self._packages[package] is not None:
             return None
         similar = nearest(package, self._known_packages)
-        path = self._in_package(similar, inside) if similar and inside else None
-        return (package, similar) if similar and path and self._may_look_at(path) and is_file(path) else None
+        if similar is None or not is_misspelling(package, similar):
+            return None
+        path = self._in_package(similar, inside) if inside else None
+        return (package, similar) if path and self._may_look_at(path) and is_file(path) else None
 
     @cached_property
     def _known_packages(self) -> frozenset[str]:

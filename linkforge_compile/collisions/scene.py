@@ -1,4 +1,4 @@
-"""What sampling needs of a robot, as plain values that other processes can get: bodies, their motion and shapes."""
+"""A robot as plain values, to sample it in several processes or pose it: bodies, their motion and shapes."""
 
 from __future__ import annotations
 

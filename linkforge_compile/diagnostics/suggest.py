@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -13,6 +14,9 @@ _LONGEST = 200
 """Characters of a name that is still compared."""
 
 _LEAST_LIKENESS = 0.7
+
+_MOST_APART = 2
+"""How many letters a misspelling adds, leaves out or changes."""
 
 _STEPS_OF_A_NAME = 100_000
 _STEPS_OF_A_COMPILE = 4_000_000
@@ -114,6 +118,25 @@ def suggested(name: str, candidates: Iterable[str]) -> str | None:
 def is_other_case(name: str, candidates: Iterable[str]) -> bool:
     """Whether exactly one of the candidates has the same letters in another case."""
     return sum(other.casefold() == name.casefold() for other in {*candidates}) == 1
+
+
+def is_misspelling(name: str, intended: str) -> bool:
+    """Whether two names are at most two letters apart, and no word of either with a digit differs.
+
+    `ur5_descripton` may be a misspelling of `ur5_description`; `ur5e_description` is the name of another robot.
+    """
+    from difflib import SequenceMatcher
+
+    one, other = name.casefold(), intended.casefold()
+    if _models_in(one) != _models_in(other):
+        return False
+    changes = SequenceMatcher(None, one, other, autojunk=False).get_opcodes()
+    return sum(max(i2 - i1, j2 - j1) for tag, i1, i2, j1, j2 in changes if tag != "equal") <= _MOST_APART
+
+
+def _models_in(name: str) -> list[str]:
+    """Return the words of a name that have digits, as those of models have."""
+    return [word for word in re.split(r"[_\W]+", name) if any(map(str.isdecimal, word))]
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

@@ -11,7 +11,7 @@ from linkforge_compile.core.fields import BEYOND_EPSILON, Child, field_specs
 from linkforge_compile.core.models.controller import MANAGER, Controller
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
-from linkforge_compile.core.models.manager_parameters import SourcedText, kind_of_names
+from linkforge_compile.core.models.manager_parameters import kind_of_names
 from linkforge_compile.core.models.ros2_control import (
     Interface,
     Ros2Control,
@@ -23,6 +23,7 @@ from linkforge_compile.core.models.ros2_control import (
 from linkforge_compile.core.models.sensor import INFO_FIELDS, MAY_LACK_INFO, Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
 from linkforge_compile.core.part import FreePart
+from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import NOT_OF_MANAGER, TAG_TWICE
 from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_element, lower_fields

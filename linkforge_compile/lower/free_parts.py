@@ -23,11 +23,13 @@ def typed_data(fields: Fields, key: str) -> dict[str, object]:
 
 
 def typed_value(node: YamlNode) -> PlainData:
-    """Return the value of a node with its type; a quantity in SI units, None for a faulty value."""
+    """Return the value of a node with its type; a quantity in SI units, None for a faulty value, or a list with one."""
     match node:
         case YamlScalar(value=value):
             return value.value if isinstance(value, Quantity) else value
         case YamlList():
+            if any(isinstance(item, YamlFault) for item in node):
+                return None
             return [typed_value(item) for item in node]
         case YamlMap():
             return {entry.name: typed_value(entry.value) for entry in node if not is_absent(entry.value)}

@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import takewhile
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.core.models.manager_parameters import SourcedText
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.part import FreePart
+from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import (
     ABSOLUTE_TOPIC,

@@ -32,7 +32,7 @@ def uri_of(path: Path) -> str:
 def path_of(uri: str) -> Path | None:
     """Return the path of a `file:` URI; None for another one, such as `untitled:`."""
     path = uris.to_fs_path(uri) if uris.uri_scheme(uri) == "file" else None
-    return None if path is None else Path(path)
+    return None if path is None or "\0" in path else Path(path)
 
 
 class Columns:

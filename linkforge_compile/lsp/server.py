@@ -20,7 +20,7 @@ from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
-from linkforge_compile.lsp.document_links import document_links
+from linkforge_compile.lsp.document_links import document_links, files_at
 from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.hover import hover
@@ -29,7 +29,7 @@ from linkforge_compile.lsp.navigation import declarations_of, highlights, refere
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.semantic_tokens import LEGEND, semantic_tokens
 from linkforge_compile.lsp.symbols import find_symbols, outline
-from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part, is_spec
+from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part
 from linkforge_compile.roots import identity
 
 _Result = TypeVar("_Result")
@@ -55,48 +55,73 @@ class SpecServer(LanguageServer):
     def __init__(self) -> None:
         super().__init__("linkforge", __version__, text_document_sync_kind=types.TextDocumentSyncKind.Full)
         self.specs = Workspace()
-        self._analyser = ThreadPoolExecutor(max_workers=1, thread_name_prefix="analysis")
-        self._published: set[str] = set()
         self.hints = HintOptions()
-        self._analysing = asyncio.Lock()
+        # Two threads analyse, so that a spec that takes long does not delay the others; one does what requests need.
+        self._analysers = ThreadPoolExecutor(max_workers=2, thread_name_prefix="analysis")
+        self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="requests")
+        self._analyses: dict[str, asyncio.Task[None]] = {}
+        self._scheduled: set[asyncio.Task[None]] = set()
+        self._published: set[str] = set()
 
     @property
     def columns(self) -> Columns:
         return Columns(self.workspace.position_codec)
 
-    async def schedule(self, delay: float = DEBOUNCE) -> None:
+    @property
+    def folders(self) -> tuple[Path, ...]:
+        """The folders of the workspace, in which specs are that use others."""
+        uris = [folder.uri for folder in self.workspace.folders.values()] or [self.workspace.root_uri or ""]
+        return tuple(folder for folder in map(path_of, uris) if folder)
+
+    def schedule(self, delay: float = DEBOUNCE) -> None:
         """Analyse what is pending after a delay without another change, and publish the diagnostics."""
+        task = asyncio.get_running_loop().create_task(self._analyse_later(delay))
+        self._scheduled.add(task)  # the loop itself keeps no reference
+        task.add_done_callback(self._scheduled.discard)
+
+    async def _analyse_later(self, delay: float) -> None:
         generation = self.specs.generation
         await asyncio.sleep(delay)
-        if generation == self.specs.generation:
-            await self._analyse()
+        while generation == self.specs.generation and (pending := self.specs.pending()):
+            await asyncio.gather(*map(self._analysed, pending))
         if generation == self.specs.generation:
             self._publish()
 
-    async def _analyse(self) -> None:
-        """Analyse what is pending."""
-        async with self._analysing:
-            while pending := self.specs.pending():
-                path, settings = pending[0], self.specs.begin(pending[0])
-                analysis = await self.in_thread(partial(analyse_path, path, settings))
-                includers: Iterable[Path] = ()
-                if is_part(analysis) and identity(path) in self.specs.buffers:
-                    users = await self.in_thread(partial(find_users, path, self.specs.folders, settings))
-                    includers = [user for user, one in users.items() if not is_part(one)]
-                self.specs.keep(path, analysis, includers)
+    def _analysed(self, path: Path) -> asyncio.Future[None]:
+        """Return what ends when a spec is analysed; a request that is cancelled does not cancel it."""
+        real = identity(path)
+        if real not in self._analyses:
+            self._analyses[real] = task = asyncio.get_running_loop().create_task(self._analyse(path))
+            task.add_done_callback(lambda _: self._analyses.pop(real))
+        return asyncio.shield(self._analyses[real])
+
+    async def _analyse(self, path: Path) -> None:
+        """Analyse a spec; again if it changed meanwhile. Threads get values only: the loop changes what is known."""
+        while path in self.specs.pending():
+            settings = self.specs.begin(path)
+            run = partial(asyncio.get_running_loop().run_in_executor, self._analysers)
+            analysis = await run(partial(analyse_path, path, settings))
+            includers: Iterable[Path] = ()
+            if is_part(analysis) and identity(path) in self.specs.buffers:
+                users = await run(partial(find_users, path, self.folders, settings))
+                includers = [user for user, one in users.items() if not is_part(one)]
+            self.specs.keep(path, analysis, includers)
 
     def in_thread(self, work: Callable[[], _Result]) -> asyncio.Future[_Result]:
-        """Do what takes long in the thread that analyses; it may use values only, as the loop changes what is known."""
-        return asyncio.get_running_loop().run_in_executor(self._analyser, work)
+        """Do what takes long for a request in a thread; it may use values only, as the loop changes what is known."""
+        return asyncio.get_running_loop().run_in_executor(self._worker, work)
 
     def _publish(self) -> None:
         """Send the diagnostics of all files, and remove those of files that have none any more."""
         roots = {path: self.specs.analyses[identity(path)] for path in self.specs.roots()}
         found = diagnostics_by_uri(roots, self.columns)
-        open_uris = {document.uri: document.version for document in self.workspace.text_documents.values()}
-        for uri in {**found, **dict.fromkeys(self._published), **open_uris}:
-            params = types.PublishDiagnosticsParams(uri, found.get(uri, []), open_uris.get(uri))
-            self.text_document_publish_diagnostics(params)
+        # A file may be open by several paths, which links make.
+        by_file = {identity(path): listed for uri, listed in found.items() if (path := path_of(uri))}
+        open_texts = {document.uri: document.version for document in self.workspace.text_documents.values()}
+        for uri in {**found, **dict.fromkeys(self._published), **open_texts}:
+            path = path_of(uri)
+            listed = found.get(uri) or (by_file.get(identity(path), []) if path else [])
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, listed, open_texts.get(uri)))
         self._published = set(found)
 
     def document(self, uri: str) -> Document | None:
@@ -105,8 +130,10 @@ class SpecServer(LanguageServer):
         return self.specs.document(path, self.columns) if path else None
 
     async def analysed(self, uri: str) -> Document | None:
-        """Return what is known of an open spec once its text is analysed."""
-        await self._analyse()
+        """Return what is known of an open spec once its text is analysed, by itself and by those that read it."""
+        path = path_of(uri)
+        while path and (pending := self.specs.pending_for(path)):
+            await self._analysed(pending[0])
         return self.document(uri)
 
     async def analysed_with_users(self, uri: str) -> Document | None:
@@ -114,7 +141,7 @@ class SpecServer(LanguageServer):
         document = await self.analysed(uri)
         if document is None:
             return None
-        find = partial(find_users, document.path, self.specs.folders, self.specs.settings())
+        find = partial(find_users, document.path, self.folders, self.specs.settings())
         known = {identity(one.compilation.files[0]) for one in document.analyses if one.compilation.files}
         users = await self.in_thread(find)
         others = (one for path, one in users.items() if identity(path) not in known)
@@ -138,11 +165,10 @@ def make_server() -> SpecServer:
 def _add_synchronization(server: SpecServer) -> None:
     @server.feature(types.INITIALIZE)
     def _initialize(params: types.InitializeParams) -> None:
-        folders = (path_of(folder.uri) for folder in params.workspace_folders or ())
-        server.specs.folders = tuple(folder for folder in folders if folder)
         options = params.initialization_options
-        packages = options.get("packages", {}) if isinstance(options, dict) else {}
-        server.specs.packages = {name: Path(place) for name, place in packages.items()}
+        packages = options.get("packages") if isinstance(options, dict) else None
+        entries = packages.items() if isinstance(packages, dict) else ()
+        server.specs.packages = {name: Path(place) for name, place in entries if isinstance(place, str)}
         server.hints = HintOptions.of(options)
 
     @server.feature(types.INITIALIZED)
@@ -153,25 +179,28 @@ def _add_synchronization(server: SpecServer) -> None:
             await server.client_register_capability_async(types.RegistrationParams([_WATCHING]))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
-    async def _opened(params: types.DidOpenTextDocumentParams) -> None:
-        await _put(server, params.text_document.uri, delay=0)
+    def _opened(params: types.DidOpenTextDocumentParams) -> None:
+        _put(server, params.text_document.uri, delay=0)
 
     @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
-    async def _changed(params: types.DidChangeTextDocumentParams) -> None:
-        await _put(server, params.text_document.uri, delay=DEBOUNCE)
+    def _changed(params: types.DidChangeTextDocumentParams) -> None:
+        _put(server, params.text_document.uri, delay=DEBOUNCE)
 
     @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
-    async def _closed(params: types.DidCloseTextDocumentParams) -> None:
+    def _closed(params: types.DidCloseTextDocumentParams) -> None:
         if path := path_of(params.text_document.uri):
             server.specs.close(path)
-            await server.schedule()
+            server.schedule()
+            for other in server.workspace.text_documents.values():
+                if identity(path_of(other.uri) or "") == identity(path):
+                    _put(server, other.uri, delay=0)
 
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
-    async def _files_changed(params: types.DidChangeWatchedFilesParams) -> None:
-        for change in params.changes:
-            if (path := path_of(change.uri)) and identity(path) not in server.specs.buffers:
-                server.specs.note_change(path)
-        await server.schedule()
+    def _files_changed(params: types.DidChangeWatchedFilesParams) -> None:
+        paths = (path for change in params.changes if (path := path_of(change.uri)))
+        noted = [server.specs.note_change(path) for path in paths if identity(path) not in server.specs.buffers]
+        if any(noted):
+            server.schedule()
 
 
 def _add_completion(server: SpecServer) -> None:
@@ -182,12 +211,12 @@ def _add_completion(server: SpecServer) -> None:
         return complete(document, params.position, server.specs.settings(), client) if document else []
 
 
-async def _put(server: SpecServer, uri: str, *, delay: float) -> None:
+def _put(server: SpecServer, uri: str, *, delay: float) -> None:
     path = path_of(uri)
-    if path is not None and is_spec(path):
+    if path is not None:
         document = server.workspace.get_text_document(uri)
         server.specs.put(path, document.version, document.source)
-        await server.schedule(delay)
+        server.schedule(delay)
 
 
 def _add_structure(server: SpecServer) -> None:
@@ -210,7 +239,7 @@ def _add_structure(server: SpecServer) -> None:
     async def _find(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:
         specs = server.specs
         return await server.in_thread(
-            partial(find_symbols, params.query, specs.folders, specs.settings(), server.columns)
+            partial(find_symbols, params.query, server.folders, specs.settings(), server.columns)
         )
 
 
@@ -218,7 +247,10 @@ def _add_navigation(server: SpecServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def _define(params: types.DefinitionParams) -> list[types.Location]:
         document = await server.analysed(params.text_document.uri)
-        return declarations_of(document, document.place(params.position)) if document else []
+        if document is None:
+            return []
+        at, settings = document.place(params.position), server.specs.settings()
+        return declarations_of(document, at) or await server.in_thread(partial(files_at, document, at, settings))
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def _refer(params: types.ReferenceParams) -> list[types.Location]:

@@ -66,7 +66,6 @@ class Document(NamedTuple):
 class Workspace:
     """All that the server knows. `generation` counts the changes of texts, so that older results can be told apart."""
 
-    folders: tuple[Path, ...] = ()
     packages: Mapping[str, Path] = field(default_factory=dict)
     buffers: dict[str, Buffer] = field(default_factory=dict)
     """The open buffers by real path."""
@@ -77,7 +76,8 @@ class Workspace:
     generation: int = 0
     _stale: set[str] = field(default_factory=set)
     _includers: dict[str, tuple[Path, ...]] = field(default_factory=dict)
-    _changed: set[str] = field(default_factory=set)
+    _changed: dict[str, set[str]] = field(default_factory=dict)
+    """The files that changed since the analysis of a spec began, for those being analysed, by real path."""
     """The files that changed since the latest analysis began, whose own files are known only once it ends."""
 
     def put(self, path: Path, version: int | None, text: str) -> None:
@@ -99,23 +99,36 @@ class Workspace:
         self.readable = {root: analysis for root, analysis in self.readable.items() if root in needed}
         self._stale &= needed
 
-    def note_change(self, path: Path) -> None:
-        """Mark the specs that read a file, or looked for it, as to be analysed again."""
-        self.generation += 1
+    def note_change(self, path: Path) -> bool:
+        """Mark the specs that read a file, or looked for it, as to be analysed again; return whether there may be any.
+
+        A spec that is being analysed may have read the file already.
+        """
         real = identity(path)
-        self._changed.add(real)
-        self._stale.update(root for root, one in self.analyses.items() if real == root or _depends(one, {real}))
+        affected = {root for root, one in self.analyses.items() if real == root or _depends(one, {real})}
+        self._stale |= affected
+        for changed in self._changed.values():
+            changed.add(real)
+        if affected or real in self.buffers:
+            self.generation += 1
+        return bool(affected or self._changed)
 
     def roots(self) -> tuple[Path, ...]:
         """Return the specs to analyse: each buffer, or the specs that include it."""
-        found = (self._includers.get(real) or (buffer.path,) for real, buffer in self.buffers.items())
+        specs = ((real, buffer.path) for real, buffer in self.buffers.items() if is_spec(buffer.path))
+        found = (self._includers.get(real) or (path,) for real, path in specs)
         return tuple({identity(path): path for paths in found for path in paths}.values())
 
+    def pending_for(self, path: Path) -> tuple[Path, ...]:
+        """Return those of the pending specs that are a file or read it, as far as that is known."""
+        real = identity(path)
+        others = {root for root, analysis in self.analyses.items() if root != real and not _reads(analysis, real)}
+        return tuple(root for root in self.pending() if identity(root) not in others)
+
     def pending(self) -> tuple[Path, ...]:
-        """Return the specs whose analysis is missing or older than a text."""
-        return tuple(
-            root for root in self.roots() if identity(root) in self._stale or identity(root) not in self.analyses
-        )
+        """Return the specs whose analysis is missing, older than a text, or not finished."""
+        waiting = {*self._stale, *self._changed}
+        return tuple(one for one in self.roots() if identity(one) in waiting or identity(one) not in self.analyses)
 
     def settings(self) -> Settings:
         """Return how specs are analysed now: as `linkforge check` does, with the buffers in place of their files."""
@@ -125,14 +138,14 @@ class Workspace:
     def begin(self, path: Path) -> Settings:
         """Return the settings to analyse a spec with, which from now on is stale only by further changes."""
         self._stale.discard(identity(path))
-        self._changed.clear()
+        self._changed[identity(path)] = set()
         return self.settings()
 
     def keep(self, path: Path, analysis: Analysis, includers: Iterable[Path] = ()) -> None:
         """Keep the analysis of a spec; `includers` are the specs to analyse in its place if it is a part of them."""
         real = identity(path)
         self.analyses[real] = analysis
-        if _depends(analysis, self._changed):
+        if _depends(analysis, self._changed.pop(real, ())):
             self._stale.add(real)
         if analysis.instance is not None:
             self.readable[real] = analysis

@@ -236,6 +236,27 @@ def test_a_misspelt_package_is_reported_where_the_declared_one_has_the_file(
     assert codes == ["LF6026"] * is_reported
 
 
+@pytest.mark.parametrize(
+    ("package", "is_reported"),
+    [
+        ("ur5_descripton", True),
+        ("Ur5-description", True),
+        ("ur5_desciprtion", True),
+        ("ur3_description", False),
+        ("ur10_description", False),
+        ("ur5e_description", False),
+        ("ur_description", False),
+        ("my_ur5_description", False),
+    ],
+)
+def test_the_package_of_another_robot_is_no_misspelling(package: str, is_reported: bool, tmp_path: Path):
+    (tmp_path / "a.stl").write_bytes(strip(2, 0.1))
+    links = f"links: {{a: {{visual: {{mesh: package://{package}/a.stl}}, collision: visual}}}}\n"
+    (tmp_path / "r.robot.yaml").write_text(f"linkforge: 1\nname: r\npackages: {{ur5_description: .}}\n{links}")
+    codes = [one.code.id for one in compile_file(tmp_path / "r.robot.yaml").diagnostics]
+    assert codes == ["LF6026"] * is_reported
+
+
 def test_the_package_of_the_spec_itself_is_offered_and_all_meshes_are_one_report(tmp_path: Path):
     package = tmp_path / "arm_description"
     (package / "robots").mkdir(parents=True)
@@ -247,7 +268,7 @@ def test_the_package_of_the_spec_itself_is_offered_and_all_meshes_are_one_report
     (package / "robots" / "r.robot.yaml").write_text(f"linkforge: 1\nname: r\nlinks: {{a: {{visual: [{shapes}]}}}}\n")
     (misspelt,) = compile_file(package / "robots" / "r.robot.yaml").diagnostics
     assert misspelt.message == (
-        "there is no package 'arm_descripton', which mesh 'package://arm_descripton/m0.stl' names; "
+        "package 'arm_descripton' of mesh 'package://arm_descripton/m0.stl' is not found; "
         "did you mean 'arm_description'?"
     )
     assert [note.message for note in misspelt.notes[-2:]] == [

@@ -352,3 +352,13 @@ def test_folders_of_an_output_that_is_not_written_are_not_left(cell: Path):
 )
 def test_files_are_named_after_the_spec(name: str):
     assert name_of(f"robots/{name}") == "cell"
+
+
+def test_options_of_a_format_decide_about_its_files(cell: Path, capfd: pytest.CaptureFixture[str]):
+    """An SDF depends on its meshes if it refers to them as files."""
+    (cell / "disc.robot.yaml").write_text("linkforge: 1\nname: disc\nlinks: {disc: {visual: {mesh: die.stl}}}\n")
+    die = str(cell / "die.stl")
+    assert die in listed(capfd, "disc.robot.yaml", "--for", "sdf", "--meshes", "file")["files"]
+    assert die not in listed(capfd, "disc.robot.yaml", "--for", "sdf")["files"]
+    assert main(["deps", "disc.robot.yaml", "--meshes", "file"]) == 2
+    assert "--meshes is an option of sdf, found urdf; add --for sdf" in capfd.readouterr().err

@@ -396,7 +396,6 @@ FIRST = "the first of 'position', 'velocity' and 'effort' that all of its joints
         ("", f"arm_controller/type: {TRAJECTORY}", "a default, because the spec has no `controllers`", "12:5"),
         (MOVE, "move/joints: [elbow]", OF_GROUP, "12:5"),
         (MOVE, "move/command_interfaces: [position]", FIRST, "9:42"),
-        (GRIP, "grip/joints: [elbow]", "its parameter 'joint'", "13:92"),
     ],
 )
 def test_what_a_controller_derives_is_shown_with_what_it_follows_from(
@@ -408,6 +407,12 @@ def test_what_a_controller_derives_is_shown_with_what_it_follows_from(
     assert first == f"controllers/{value}"
     assert second == f"not written itself: {why}"
     assert third.endswith(f" is written at arm.robot.yaml:{place}")
+
+
+def test_a_parameter_that_is_a_field_of_a_controller_is_written(tmp_path: Path):
+    (tmp_path / "arm.robot.yaml").write_text(CONTROLLED + GRIP)
+    lines = linkforge("explain", "arm.robot.yaml", "controllers/grip/joints", cwd=tmp_path).stdout.splitlines()
+    assert lines[:2] == ["controllers/grip/joints: [elbow]", "written at arm.robot.yaml:13:92"]
 
 
 def test_a_controller_that_is_none_has_a_hint_to_a_default_one(tmp_path: Path):

@@ -1,5 +1,6 @@
 """`linkforge collisions --pose`: what collides in the named states of groups."""
 
+import json
 import subprocess
 from pathlib import Path
 
@@ -59,7 +60,11 @@ def test_a_link_without_default_collisions_is_checked_against_the_enabled_ones(t
     [
         (("--pose", "arm/hme"), "the robot has no state 'arm/hme'; did you mean 'arm/home'?"),
         (("--pose", "x"), "has no state 'x'; there are 'arm/away', 'arm/near' and 'arm/home'"),
-        (("--pose", "arm/home", "--write"), "not allowed with argument"),
+        (("--pose", "arm/home", "--write"), "so --write is not allowed with it"),
+        (("--pose", "arm/home", "--samples", "10000"), "so --samples is not allowed with it"),
+        (("--pose", "arm/home", "--seed", "0"), "so --seed is not allowed with it"),
+        (("--pose", "arm/home", "--jobs", "1"), "so --jobs is not allowed with it"),
+        (("--pose", "arm/home", "--all"), "so --all is not allowed with it"),
         (("robot.robot.yaml", "--pose", "arm/home"), "takes one spec, found 2"),
     ],
 )
@@ -68,6 +73,51 @@ def test_wrong_usage_is_reported(words: tuple[str, ...], message: str, tmp_path:
     done = linkforge("collisions", "robot.robot.yaml", *words, cwd=tmp_path)
     assert done.returncode == 2
     assert message in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("joint", "near", "away"),
+    [
+        ("{type: floating, parent: base, child: ball}", "[0.75, 0, 0, 0, 0, 0, 1]", "[0, 1, 0, 0, 0, 0, 1]"),
+        # MoveIt normalizes quaternions; this one is a half turn about z.
+        (
+            "{type: floating, parent: base, child: ball, origin: {rpy: [0, 0, 90 deg]}}",
+            "[0.1, -0.85, 0, 0, 0, 2, 0]",
+            "[0.1, 0.85, 0, 0, 0, 2, 0]",
+        ),
+        ("{type: planar, parent: base, child: ball, axis: z}", "[0.95, 0, 3.14159]", "[0.95, 0.5, 0]"),
+    ],
+)
+def test_links_below_planar_and_floating_joints_are_where_the_state_has_them(
+    joint: str, near: str, away: str, tmp_path: Path
+):
+    spec = (
+        "links:\n  base: {collision: {sphere: 0.1, origin: [1, 0, 0]}}\n"
+        "  ball: {collision: {sphere: 0.1, origin: [0.1, 0, 0]}}\n"
+        f"joints: {{free: {joint}}}\n"
+        "semantic: {groups: {g: {joints: [free]}}, "
+        f"group_states: {{g: {{near: {{free: {near}}}, away: {{free: {away}}}}}}}}}\n"
+    )
+    done = poses(tmp_path, spec, "g/near", "g/away")
+    assert done.stdout == "g/near: 1 pair in collision\n  base ball 50 mm\ng/away: no pairs in collision\n"
+    assert done.returncode == 1
+
+
+def test_links_that_only_touch_do_not_collide(tmp_path: Path):
+    touching = BALLS.replace("near: {slide: -0.85}", "near: {slide: -0.80000000000001}")
+    done = poses(tmp_path, touching, "arm/near")
+    assert (done.returncode, done.stdout) == (0, "arm/near: no pairs in collision\n")
+
+
+def test_json_has_the_collisions_of_each_state_and_one_document_of_diagnostics(tmp_path: Path):
+    (tmp_path / "robot.robot.yaml").write_text(HEAD + BALLS, "utf-8")
+    options = ("--pose", "arm/away", "--pose", "arm/near", "--json", "--diagnostics", "json")
+    done = linkforge("collisions", "robot.robot.yaml", *options, cwd=tmp_path)
+    away, near = json.loads(done.stdout)
+    assert (done.returncode, away) == (0, {"state": "arm/away", "collisions": []})
+    assert near["collisions"][0].pop("depth") == pytest.approx(0.05)
+    assert near == {"state": "arm/near", "collisions": [{"link1": "arm", "link2": "hand", "disabled": "Never"}]}
+    json.loads(done.stderr)
 
 
 FOLDED = {"panda_joint1": 0.0, "panda_joint2": 1.7, "panda_joint4": -3.0, "panda_joint6": 0.1}

@@ -10,6 +10,7 @@ from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.diagnostics.grouping import group_alike
 from linkforge_compile.export_spec import write_spec
 from linkforge_compile.formats import ROS2_CONTROLLERS, Rendering
+from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.ros_parameters import nodes_in, require_declared
 
@@ -423,6 +424,17 @@ def test_a_list_that_ros_refuses_is_one_error():
     assert [one[:6] for one in found] == ["LF7623"]
 
 
+@pytest.mark.parametrize("name", ["c", "controller_manager"])
+def test_a_list_with_a_faulty_item_is_one_error(tmp_path: Path, name: str):
+    type_ = "type: a/B, " if name == "c" else ""
+    own = f"{{{type_}parameters: {{qos_overrides: {{list: [1, $(nix)]}}}}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers: {{o: {{type: a/B}}, {name}: {own}}}\n"
+    (tmp_path / "robot.robot.yaml").write_text(text)
+    run = linkforge("compile", "robot.robot.yaml", "--format", "ros2_controllers", "-o", "-", cwd=tmp_path)
+    assert "[LF3107]" in run.stderr
+    assert run.stderr.count("error: ") == 1
+
+
 @pytest.mark.parametrize(
     ("in_parameters", "in_fields"),
     [
@@ -447,6 +459,14 @@ def test_a_parameter_of_a_field_is_checked_as_that_field(in_parameters: str, in_
     assert found == reported(f"{start}{{{in_fields}}}}}\n")
     assert found
     assert controller("c", f"{start}{{{in_parameters}}}}}\n") == controller("c", f"{start}{{{in_fields}}}}}\n")
+
+
+def test_joints_in_parameters_of_other_classes_of_ros2_controllers_are_checked():
+    parameters = "{joints: [elbwo], frame_id: world, gpios: [a]}"
+    own = f"{{type: admittance_controller/AdmittanceController, parameters: {parameters}}}"
+    text = f"linkforge: 1\nname: robot\n{ROBOT}controllers: {{own: {own}, o: {{type: a/B}}}}\n"
+    found = [(one.code.id, one.span.text) for one in compile_text(text).diagnostics if one.span]
+    assert found == [("LF4103", "elbwo")]
 
 
 def test_joints_in_parameters_are_commanded():

@@ -1,6 +1,7 @@
 """An editor for tests: the real server in a process of its own, driven over stdio by pygls's client."""
 
 import asyncio
+import contextlib
 import re
 import sys
 import threading
@@ -93,6 +94,22 @@ class Editor:
             return await request(self._client)
 
         return self.wait(answer())
+
+    def send(self, notify: Callable[[LanguageClient], None]) -> None:
+        """Send a notification."""
+        self._send(lambda: notify(self._client))
+
+    def cancel(self, method: str, params: object, after: float) -> None:
+        """Send a request, and cancel it after some seconds."""
+
+        async def send() -> None:
+            answer = self._client.protocol.send_request(method, params, msg_id="cancelled")
+            await asyncio.sleep(after)
+            self._client.cancel_request(types.CancelParams("cancelled"))
+            with contextlib.suppress(Exception, asyncio.CancelledError):
+                await asyncio.wait_for(asyncio.wrap_future(answer), TIMEOUT)
+
+        self.wait(send())
 
     def _note_diagnostics(self, params: types.PublishDiagnosticsParams) -> None:
         with self._news:

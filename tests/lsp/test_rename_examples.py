@@ -12,7 +12,8 @@ from pygls.workspace import PositionCodec
 from linkforge_compile import render
 from linkforge_compile.analysis import analyse_path
 from linkforge_compile.lsp.convert import Columns, path_of
-from linkforge_compile.lsp.occurrences import Occurrence, Occurrences
+from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.occurrences import Occurrences
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users
 from linkforge_compile.roots import identity
@@ -28,13 +29,13 @@ ALL = bool(os.environ.get("LINKFORGE_RENAME_ALL"))
 
 def document_of(path: Path, texts: Mapping[Path, str]) -> tuple[Document, Workspace]:
     """Return a spec with the specs that read it, and the workspace with some texts open."""
-    workspace = Workspace(folders=(EXAMPLES,))
+    workspace = Workspace()
     for file, text in {path: path.read_text(), **texts}.items():
         workspace.put(file, 1, text)
     workspace.keep(path, analyse_path(path, workspace.settings()))
     document = workspace.document(path, Columns(PositionCodec()))
     assert document is not None
-    users = find_users(path, workspace.folders, workspace.settings())
+    users = find_users(path, (EXAMPLES,), workspace.settings())
     return document._replace(analyses=(*document.analyses, *users.values())), workspace
 
 

@@ -1,4 +1,4 @@
-"""`linkforge collisions`: the pairs of links that need no check for collisions, found by sampling."""
+"""`linkforge collisions`: the pairs of links that need no check, by sampling, or those that collide in a state."""
 
 from __future__ import annotations
 
@@ -26,11 +26,14 @@ if TYPE_CHECKING:
     from linkforge_compile.collisions.matrix import Matrix
     from linkforge_compile.collisions.pairs import Names
     from linkforge_compile.collisions.poses import Collision
+    from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.srdf import GroupState
 
 MAX_SHOWN = 20
 """The most pairs that `--check` lists."""
+
+DEFAULT_SAMPLES = 10_000
 
 MAX_SAMPLES = 100_000_000
 """More samples would take days."""
@@ -62,18 +65,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml, or folders; - for standard input"
     )
     parser.add_argument(
-        "--samples", metavar="N", type=_samples, default=10_000, help="how many random positions (default: 10000)"
+        "--samples", metavar="N", type=_samples, help=f"how many random positions (default: {DEFAULT_SAMPLES})"
     )
-    parser.add_argument("--seed", metavar="N", type=_seed, default=0, help="the seed of the positions (default: 0)")
-    parser.add_argument(
-        "--jobs", metavar="N", type=_jobs, default=_processors(), help="how many processes (default: one a processor)"
-    )
+    parser.add_argument("--seed", metavar="N", type=_seed, help="the seed of the positions (default: 0)")
+    parser.add_argument("--jobs", metavar="N", type=_jobs, help="how many processes (default: one a processor)")
     parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
     output = parser.add_mutually_exclusive_group()
     output.add_argument("--write", action="store_true", help="change the section in the spec instead of printing it")
     output.add_argument("--check", action="store_true", help="write nothing; fail if --write would change anything")
     output.add_argument("--json", action="store_true", help="print JSON, with the pairs that need a check")
-    output.add_argument(
+    parser.add_argument(
         "--pose",
         metavar="GROUP/STATE",
         dest="poses",
@@ -135,22 +136,30 @@ def _in_order(found: FoundSpecs, assignments: list[str], arguments: argparse.Nam
 
 def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespace) -> int:
     """Print what collides in the states that the options name; FAULTY_SPEC if a pair does that planners check."""
+    are_given = {name: getattr(arguments, name) is not None for name in ("samples", "seed", "jobs")}
+    are_given |= {name: getattr(arguments, name) for name in ("all", "write", "check")}
+    if other := next((name for name, is_given in are_given.items() if is_given), None):
+        raise UsageError(f"--pose takes no samples and writes nothing, so --{other} is not allowed with it")
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.collisions.poses import find_collisions
     from linkforge_compile.diagnostics import Diagnostics
     from linkforge_compile.diagnostics.grouping import group_alike
 
     compilation = compile_spec(spec, assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+    if compilation.robot is None:
+        report(compilation.diagnostics, arguments)
         return FAULTY_SPEC
     states, sink = _states(compilation.robot, arguments.poses), Diagnostics()
     found = find_collisions(compilation.robot, states.values(), sink)
-    if report(group_alike(sink.sorted()), arguments):
+    if report((*compilation.diagnostics, *group_alike(sink.sorted())), arguments):
         return FAULTY_SPEC
-    lines = (
-        line for pose, collisions in zip(states, found, strict=True) for line in _collision_lines(pose, collisions)
-    )
-    write_to_stdout("".join(f"{line}\n" for line in lines))
+    by_pose = dict(zip(states, found, strict=True))
+    if arguments.json:
+        documents = [{"state": pose, "collisions": list(map(_collision_json, of))} for pose, of in by_pose.items()]
+        write_to_stdout(json.dumps(documents, ensure_ascii=False, indent=2) + "\n")
+    else:
+        lines = (line for pose, collisions in by_pose.items() for line in _collision_lines(pose, collisions))
+        write_to_stdout("".join(f"{line}\n" for line in lines))
     are_free = all(one.disabled is not None for collisions in found for one in collisions)
     return OK if are_free else FAULTY_SPEC
 
@@ -174,6 +183,11 @@ def _collision_lines(pose: str, collisions: Sequence[Collision]) -> Iterator[str
     for (one, other), depth, reason in collisions:
         deep = "" if depth is None else f" {depth * 1000:.3g} mm"
         yield f"  {one} {other}{deep}" + ("" if reason is None else f" (disabled: {reason or 'no reason'})")
+
+
+def _collision_json(one: Collision) -> dict[str, object]:
+    """Return a collision as JSON, with the depth in metres; `disabled` is null for a pair that planners check."""
+    return {"link1": one.links[0], "link2": one.links[1], "depth": one.depth, "disabled": one.disabled}
 
 
 def _print(results: Mapping[str, Matrix], arguments: argparse.Namespace, *, is_one: bool) -> None:
@@ -246,19 +260,25 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
     """Return the matrix of a robot; None if that has errors, which are printed."""
     from linkforge_compile.cli.progress_bar import ProgressBar
     from linkforge_compile.collisions.matrix import find_matrix
-    from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.diagnostics import Diagnostics
     from linkforge_compile.diagnostics.grouping import group_alike
 
     sink = Diagnostics()
-    settings = SamplingSettings(arguments.samples, arguments.seed, arguments.jobs)
-    bar = ProgressBar(arguments.samples, "samples", arguments)
+    settings = _sampling_settings(arguments)
+    bar = ProgressBar(settings.samples, "samples", arguments)
     try:
         matrix = find_matrix(robot, settings, bar.show, sink, is_all=arguments.all)
     finally:
         bar.close()
     report(group_alike(sink.sorted()), arguments)
     return matrix
+
+
+def _sampling_settings(arguments: argparse.Namespace) -> SamplingSettings:
+    from linkforge_compile.collisions.sampling import SamplingSettings
+
+    jobs = arguments.jobs or _processors()
+    return SamplingSettings(arguments.samples or DEFAULT_SAMPLES, arguments.seed or 0, jobs)
 
 
 def _require_libraries() -> None:
@@ -276,9 +296,10 @@ def _summary(matrix: Matrix) -> str:
 
 
 def _json(matrix: Matrix, arguments: argparse.Namespace) -> dict[str, object]:
+    settings = _sampling_settings(arguments)
     return {
-        "samples": arguments.samples,
-        "seed": arguments.seed,
+        "samples": settings.samples,
+        "seed": settings.seed,
         "disabled": [{"link1": one, "link2": other, "reason": why} for (one, other), why in matrix.disabled.items()],
         "checked": [{"link1": one, "link2": other} for one, other in matrix.checked],
     }

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import (
+    add_format_options,
     add_spec_and_values,
     add_spec_options,
     compile_spec,
+    refuse_options_of_other_formats,
     require_one_spec,
     split_assignments,
 )
@@ -33,13 +35,14 @@ FORMATS = ("make", "json")
 
 _EXAMPLES = """\
 It lists the spec, the files that it includes and uses, files of values, xacro files, meshes from which an inertia is
-computed, and the meshes of an MJCF or SDF; and linkforge's own templates of the format, and its version. The format is
-URDF, unless -o or --for name other files.
+computed, the meshes of an MJCF, and the meshes and textures of an SDF with --meshes file; and linkforge's own templates
+of the format, and its version. The format is URDF, unless -o or --for name other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/arm.urdf     build/arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/ --for mjcf  build/arm.mjcf: arm.robot.yaml ...
+  linkforge deps arm.robot.yaml -o arm.sdf --meshes file    arm.sdf: arm.robot.yaml ... meshes/hand.stl
   linkforge deps arm.robot.yaml --format json         for other tools, also of a spec with errors
 
 In JSON, "files" are those of the robot, "unread" those that could not be read, and "linkforge" its own. For a spec with
@@ -55,6 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (default), or JSON")
     add_for_option(parser, "the rule is for the outputs of this format, once more for another one")
     add_spec_options(parser)
+    add_format_options(parser)
     add_report_options(parser)
 
 
@@ -65,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_formats_as_specs(specs, "--for")
     spec = require_one_spec(specs)
     targets = _targets(spec, arguments.outputs, arguments.formats)
+    refuse_options_of_other_formats(arguments, targets.formats, "--for")
     compilation = compile_spec(spec, assignments, arguments, formats=targets.formats)
     is_faulty = report(compilation.diagnostics, arguments)
     if arguments.format == "json":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.export_spec import Explanation, UnknownPathError
-    from linkforge_compile.formats.ros2_controllers.complete import Derived
+    from linkforge_compile.formats.ros2_controllers.origins import Explained, Origin
 
 _EXAMPLES = """\
 PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
@@ -75,33 +75,39 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.core.models.controller import MANAGER
     from linkforge_compile.export_spec import UnknownPathError, explain
     from linkforge_compile.export_spec.explanation_lines import explanation_lines
 
-    derived = _complete_controllers(compilation.robot, path)
+    robot = compilation.robot
+    if controllers := _explained_controllers(robot, path):
+        manager = [one for one in robot.controllers if one.name == MANAGER]
+        robot.controllers = [*(one.controller for one in controllers), *manager]
     try:
-        explanation = explain(compilation.robot, path)
+        explanation = explain(robot, path)
     except UnknownPathError as error:
-        raise UsageError(f"{error}{_hint(error, compilation.robot, path)}") from None
-    lines = explanation_lines(explanation, place_lines) if derived is None else _derived(explanation, derived)
+        raise UsageError(f"{error}{_hint(error, robot, path)}") from None
+    origin = _origin_at(controllers, path)
+    lines = explanation_lines(explanation, place_lines) if origin is None else _lines(explanation, origin)
     write_to_stdout("".join(f"{line}\n" for line in lines))
     return OK
 
 
-def _complete_controllers(robot: Robot, path: str) -> Derived | None:
-    """Give a robot the controllers of its outputs if a path leads to one; return why its value follows from others."""
-    section, name, field = (*path.strip("/").split("/"), "", "")[:3]
+def _explained_controllers(robot: Robot, path: str) -> tuple[Explained, ...]:
+    """Return the controllers of a robot's outputs if a path leads to a field of one, else none."""
+    section, _, field = (*path.strip("/").split("/"), "", "")[:3]
     if section != "controllers" or field == "parameters":
-        return None
-    from linkforge_compile.core.models.controller import MANAGER
-    from linkforge_compile.formats.ros2_controllers.origins import controllers_with_origins
+        return ()
+    from linkforge_compile.formats.ros2_controllers.origins import explained_controllers
 
-    completed = controllers_with_origins(robot)
-    if completed:
-        manager = [one for one in robot.controllers if one.name == MANAGER]
-        robot.controllers = [*(one.controller for one in completed), *manager]
-    origins = next((one.derived for one in completed if one.controller.name == name), {})
-    return origins.get(field, origins.get(""))
+    return explained_controllers(robot)
+
+
+def _origin_at(controllers: Sequence[Explained], path: str) -> Origin | None:
+    """Return where the field of a controller comes from that a path leads to; None for one at its own place."""
+    _, name, field = (*path.strip("/").split("/"), "", "")[:3]
+    origins = next((one.origins for one in controllers if one.controller.name == name), None)
+    return origins.get(field, origins.get("")) if origins else None
 
 
 _ONLY_IN_SPECS = {
@@ -136,8 +142,10 @@ def _frame_hint(robot: Robot, path: str) -> str:
     return f"; look at 'joints/{joint.name}{path[len(joint.child) :]}'"
 
 
-def _derived(explanation: Explanation, derived: Derived) -> Iterator[str]:
+def _lines(explanation: Explanation, origin: Origin) -> Iterator[str]:
     yield explanation.text
-    yield f"not written itself: {derived.why}"
-    if derived.subject and derived.source:
-        yield from place_lines(f"{derived.subject} is written", derived.source.at(*derived.path))
+    if origin.why:
+        yield f"not written itself: {origin.why}"
+    if origin.source and (origin.subject or not origin.why):
+        written = f"{origin.subject} is written" if origin.why else "written"
+        yield from place_lines(written, origin.source.at(*origin.path))

@@ -24,19 +24,6 @@ def default_name(group: str) -> str:
 JOINT_FIELDS = ("joints", "left_wheels", "right_wheels")
 """The fields of a controller with names of joints."""
 
-PARAMETERS_OF_FIELDS: Mapping[str, str] = FrozenMap(
-    {
-        "joints": "joints",
-        "left_wheels": "left_wheel_names",
-        "right_wheels": "right_wheel_names",
-        "sensor": "sensor_name",
-        "frame": "frame_id",
-        "command_interfaces": "command_interfaces",
-        "state_interfaces": "state_interfaces",
-    }
-)
-"""The usual names of the parameters that the fields of a controller become, by field."""
-
 
 @extras_last
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from linkforge_compile.core.models.controller import PARAMETERS_OF_FIELDS, Controller
+from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.core.part import FrozenMap
 
 TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
@@ -23,6 +23,23 @@ STATES = "joint_state_broadcaster/JointStateBroadcaster"
 DIFF_DRIVE = "diff_drive_controller/DiffDriveController"
 IMU = "imu_sensor_broadcaster/IMUSensorBroadcaster"
 FORCE_TORQUE = "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster"
+
+
+PARAMETERS_OF_FIELDS: Mapping[str, str] = FrozenMap(
+    {
+        "joints": "joints",
+        "left_wheels": "left_wheel_names",
+        "right_wheels": "right_wheel_names",
+        "sensor": "sensor_name",
+        "frame": "frame_id",
+        "command_interfaces": "command_interfaces",
+        "state_interfaces": "state_interfaces",
+    }
+)
+"""The usual names of the parameters that the fields of a controller become, by field."""
+
+_TEXTS = ("sensor", "frame")
+"""The fields of one name, where others are lists."""
 
 
 class Kind(NamedTuple):
@@ -90,6 +107,31 @@ KINDS: Mapping[str, Kind] = {
     ),
 }
 
+OTHER_CLASSES = (
+    "ackermann_steering_controller/AckermannSteeringController",
+    "admittance_controller/AdmittanceController",
+    "battery_state_broadcaster/BatteryStateBroadcaster",
+    "bicycle_steering_controller/BicycleSteeringController",
+    "chained_filter_controller/ChainedFilter",
+    "forward_command_controller/MultiInterfaceForwardCommandController",
+    "gpio_controllers/GpioCommandController",
+    "gps_sensor_broadcaster/GPSSensorBroadcaster",
+    "magnetometer_broadcaster/MagnetometerBroadcaster",
+    "mecanum_drive_controller/MecanumDriveController",
+    "motion_primitives_controllers/MotionPrimitivesForwardController",
+    "omni_wheel_drive_controller/OmniWheelDriveController",
+    "pid_controller/PidController",
+    "pose_broadcaster/PoseBroadcaster",
+    "range_sensor_broadcaster/RangeSensorBroadcaster",
+    "state_interfaces_broadcaster/StateInterfacesBroadcaster",
+    "tricycle_controller/TricycleController",
+    "tricycle_steering_controller/TricycleSteeringController",
+)
+"""The other classes of ros2_controllers, which have the usual names."""
+
+_LIFTED_OF_OTHERS: Mapping[str, str] = {"joints": "joints", "sensor": "sensor_name"}
+"""The fields that parameters of those classes are; the `frame_id` of some is no link of the robot."""
+
 ANY_KIND = Kind(PARAMETERS_OF_FIELDS)
 """What any other class is given: all that a controller has, under the usual names."""
 
@@ -99,13 +141,14 @@ def kind_of(type_: str | None) -> Kind:
 
 
 def lift_parameters(controller: Controller) -> Controller:
-    """Return a controller of a known class with each parameter that is a field's in that field.
+    """Return a controller of ros2_controllers with each parameter that is a field's in that field.
 
     A parameter stays where the field is stated as well, and where its value is none that the field accepts.
     """
-    kind = KINDS.get(controller.type or "", Kind({}))
+    kind, is_other = kind_of(controller.type), controller.type in OTHER_CLASSES
+    parameters = _LIFTED_OF_OTHERS if is_other else kind.parameters if kind is not ANY_KIND else {}
     lifted: dict[str, object] = {}
-    for field, parameter in kind.parameters.items():
+    for field, parameter in parameters.items():
         value = controller.parameters.get(parameter)
         is_one = field in _TEXTS or field in kind.single
         items = [value] if is_one else value if isinstance(value, list | tuple) else ()
@@ -117,10 +160,6 @@ def lift_parameters(controller: Controller) -> Controller:
     names = {kind.parameters[field] for field in lifted}
     others = {name: value for name, value in controller.parameters.items() if name not in names}
     return controller.with_fields(**lifted, parameters=FrozenMap(others))
-
-
-_TEXTS = ("sensor", "frame")
-"""The fields of one name, where others are lists."""
 
 
 def stated_field(controller: Controller, field: str) -> str | None:

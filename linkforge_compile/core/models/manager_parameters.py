@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
-from linkforge_compile.core.part import FrozenMap, dump_like
-from linkforge_compile.source import Key, SourceRef
+from linkforge_compile.core.part import FrozenMap
+from linkforge_compile.core.sourced_text import SourcedText
 
 HARDWARE, CONTROLLER = "ros2_control system", "controller"
 """What a name in the parameters is that of."""
@@ -15,29 +15,6 @@ _INITIAL_STATE = "hardware_components_initial_state"
 _STATES = ("unconfigured", "inactive")
 _OF_CONTROLLER = frozenset(("type", "params_file", "fallback_controllers", "node_options_args"))
 """What the manager has of each controller, under its name."""
-
-
-class SourcedText(str):
-    """A name in the parameters of a manager, with the `source` of its value, None if it was not read.
-
-    Merging modules puts the parameters of several files into one manager, so the source of the manager would not do.
-    It compares, hashes and prints as that name. A key has its own node as the `key` of its source.
-    """
-
-    __slots__ = ("source",)
-
-    source: SourceRef | None
-
-    def __new__(cls, text: str, source: SourceRef | None = None) -> Self:
-        sourced = super().__new__(cls, text)
-        sourced.source = source
-        return sourced
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (str(self), self.source)
-
-
-dump_like(SourcedText, str)
 
 
 class ListedName(NamedTuple):
@@ -101,20 +78,3 @@ def loaded_class(parameters: Mapping[str, object], controller: str) -> object:
     """Return the class of a controller that the parameters of the manager state; None if they do not."""
     stated = parameters.get(controller)
     return stated.get("type") if isinstance(stated, Mapping) else None
-
-
-def place_of_parameter(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
-    """Return where the value at a path of a controller was written: an object, and the path from there."""
-    name = path[-1]
-    if isinstance(name, SourcedText) and name.source:
-        return (SourceRef(name.source.node, None, name.source.trail),)
-    return (source, *path)
-
-
-def place_of_parameter_name(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
-    """Return where the last name of a path itself was written."""
-    *outer, name = path
-    if isinstance(name, SourcedText) and name.source:
-        return (name.source,)
-    keys = (*outer, Key(name))
-    return (source, *keys)

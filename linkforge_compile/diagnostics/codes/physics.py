@@ -77,7 +77,7 @@ MIRRORED_COLLISIONS = Code(
 FINE_COLLISIONS = Code(
     "LF6025", _N, "collisions of {links} are the visual meshes, with {triangles} triangles; contacts will be slow"
 )
-MISSPELT_PACKAGE = Code("LF6026", _W, "there is no package '{name}', which mesh '{path}' names")
+MISSPELT_PACKAGE = Code("LF6026", _W, "package '{name}' of mesh '{path}' is not found")
 
 # LF603x: mass and inertia against the shapes
 LIGHT_LINK = Code(

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller_kinds import KINDS, STATES, kind_of, lift_parameters
+from linkforge_compile.core.models.controller_kinds import KINDS, OTHER_CLASSES, STATES, kind_of, lift_parameters
 from linkforge_compile.diagnostics.codes.formats import (
     NO_GROUP_TO_PLAN,
     NO_JOINT_STATES,
@@ -18,7 +18,7 @@ from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.groups import chain_groups, faulty_groups, joints_by_group
 from linkforge_compile.formats.moveit.view import SOLVER_PARAMETERS, executing_controllers, moveit_view
-from linkforge_compile.formats.ros2_controllers.class_names import OTHER_CLASSES, misspelled_class
+from linkforge_compile.formats.ros2_controllers.class_names import misspelled_class
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers, has_faulty_names
 from linkforge_compile.source import Key
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
-from linkforge_compile.core.models.manager_parameters import place_of_parameter, place_of_parameter_name
+from linkforge_compile.core.sourced_text import place_of_parameter, place_of_parameter_name
 from linkforge_compile.diagnostics.codes.formats import LIST_OF_SEVERAL_TYPES, UNKNOWN_PARAMETER, WRONG_PARAMETER
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
 from linkforge_compile.formats.ros2_controllers.view import typed_parameters

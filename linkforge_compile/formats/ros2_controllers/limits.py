@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER, PARAMETERS_OF_FIELDS
+from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER
 from linkforge_compile.core.models.controller_kinds import (
     KINDS,
+    PARAMETERS_OF_FIELDS,
     STATES,
     TRAJECTORY,
     kind_of,

@@ -2,44 +2,63 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.controller import MANAGER, PARAMETERS_OF_FIELDS, Controller
-from linkforge_compile.core.models.controller_kinds import path_of_field
-from linkforge_compile.formats.ros2_controllers.complete import Completed, Derived, completed_controllers
+from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller_kinds import PARAMETERS_OF_FIELDS, path_of_field
+from linkforge_compile.formats.ros2_controllers.complete import Completed, completed_controllers
 from linkforge_compile.formats.ros2_controllers.limits import missing_hardware
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source import SourceRef
 
 
-def controllers_with_origins(robot: Robot) -> tuple[Completed, ...]:
-    """Return the completed controllers, each with where its derived fields come from, and "" for a default one.
+class Origin(NamedTuple):
+    """Where a value was written, as a path below a source, or what it follows from.
 
-    There are none for a robot without hardware, for which there is no file of controllers.
+    `why` it follows from the part `subject`, which was written there; "" for a value that was written itself.
     """
+
+    why: str
+    subject: str
+    source: SourceRef | None
+    path: tuple[str, ...] = ()
+
+
+class Explained(NamedTuple):
+    """A controller with all of its fields, and the origins of those that are not at their places, by name.
+
+    The one of "" is that of a default controller as a whole.
+    """
+
+    controller: Controller
+    origins: Mapping[str, Origin]
+
+
+def explained_controllers(robot: Robot) -> tuple[Explained, ...]:
+    """Return the controllers of the outputs; none for a robot without hardware, for which there is no file of them."""
     if missing_hardware(robot):
         return ()
     are_stated = any(one.name != MANAGER for one in robot.controllers)
-    return tuple(
-        Completed(one.controller, {**_lifted(one.controller), **one.derived, **_of_default(one.controller, are_stated)})
-        for one in completed_controllers(robot)
-    )
+    return tuple(Explained(one.controller, _origins(one, are_stated)) for one in completed_controllers(robot))
 
 
-def _of_default(controller: Controller, are_stated: bool) -> dict[str, Derived]:
-    """Return where a controller itself comes from, unless the spec states it."""
-    if are_stated:
-        return {}
-    subject = f"planning group '{controller.group}'" if controller.group else ""
-    return {"": Derived((), "a default, because the spec has no `controllers`", subject, controller.source)}
-
-
-def _lifted(controller: Controller) -> dict[str, Derived]:
-    """Return where the fields that are parameters in the spec come from."""
-    paths = {field: path_of_field(controller, field) for field in PARAMETERS_OF_FIELDS}
-    return {
-        field: Derived((), f"its parameter '{path[-1]}'", "the parameter", controller.source, path)
-        for field, path in paths.items()
-        if path != (field,)
+def _origins(completed: Completed, are_stated: bool) -> dict[str, Origin]:
+    controller = completed.controller
+    origins = {
+        field: Origin(each.why, each.subject, each.source, each.path) for field, each in completed.derived.items()
     }
+    if not are_stated:
+        subject = f"planning group '{controller.group}'" if controller.group else ""
+        why = "a default, because the spec has no `controllers`"
+        origins[""] = Origin(why, subject, controller.source)
+    return {**_of_parameters(controller), **origins}
+
+
+def _of_parameters(controller: Controller) -> dict[str, Origin]:
+    """Return where the fields were written that are parameters in the spec."""
+    paths = {field: path_of_field(controller, field) for field in PARAMETERS_OF_FIELDS}
+    return {field: Origin("", "", controller.source, path) for field, path in paths.items() if path != (field,)}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field, stated_field
-from linkforge_compile.core.models.manager_parameters import place_of_parameter
+from linkforge_compile.core.sourced_text import place_of_parameter
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.formats import (
     NO_NAME_OF_A_NODE,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
-from linkforge_compile.core.models.manager_parameters import place_of_parameter
+from linkforge_compile.core.sourced_text import place_of_parameter
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.ros2_controllers.complete import completed_controllers
 from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, names_below, type_of

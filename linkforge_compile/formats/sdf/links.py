@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import LEAST_MASS, MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
@@ -19,9 +18,6 @@ from linkforge_compile.formats.sdf.raw_sensors import sensor_elements
 from linkforge_compile.formats.sdf.settings import collision_elements, link_elements, shape_elements
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
-
-if TYPE_CHECKING:
-    pass
 
 
 class Links:
