@@ -77,10 +77,19 @@ def word_hint(mismatch: SchemaMismatch, words: Sequence[str]) -> Hint:
     word = mismatch.node.text if isinstance(mismatch.node, YamlScalar) else ""
     intended = intended_word(word)
     if intended and intended in words:
-        return _write(intended, is_safe=True)
+        return _write(intended, is_safe=not _has_value_with_unit(mismatch))
     if expression := _intended_expression(mismatch):
         return _write(expression)
     return Hint(NO_BALL_JOINT) if word.lower() in ("ball", "spherical") and "revolute" in words else _NO_HINT
+
+
+def _has_value_with_unit(mismatch: SchemaMismatch) -> bool:
+    """Whether a word is the type of a parameter with a default or a bound that is no number: a dimension is meant."""
+    around = node_at(mismatch.file, mismatch.path[:-1])
+    if mismatch.path[:1] != ("parameters",) or not isinstance(around, YamlMap):
+        return False
+    values = (around.child(key) for key in ("default", "minimum", "maximum"))
+    return any(isinstance(value, YamlScalar) and is_text(value) for value in values)
 
 
 # Expressions

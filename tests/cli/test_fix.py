@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile import compile_text
 from tests.cli.in_process import linkforge
 from tests.cli.test_compile import PENDULUM
 
@@ -169,6 +170,13 @@ def test_values_of_another_format_are_written_as_ours(tmp_path: Path):
         "  hinge: {type: revolute, parent: base, child: rod, axis: [0, 1, 0], limits: "
         "{lower: -90 deg, upper: 90 deg, effort: 5, velocity: 2}}"
     )
+
+
+@pytest.mark.parametrize(("default", "is_certain"), [("0.5", True), ("0.5 m", False)])
+def test_a_type_of_number_is_not_certain_for_a_value_with_a_unit(tmp_path: Path, default: str, is_certain: bool):
+    text = PENDULUM.replace("links:", f"parameters: {{reach: {{type: float, default: {default}}}}}\nlinks:", 1)
+    fixes = [fix for one in compile_text(text).diagnostics for fix in one.fixes]
+    assert [(fix.title, fix.is_safe) for fix in fixes] == [("write 'number'", is_certain)]
 
 
 def test_a_color_of_urdf_is_written_as_ours(tmp_path: Path):

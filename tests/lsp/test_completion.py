@@ -190,3 +190,24 @@ def test_items_of_a_block_list_are_names_that_it_does_not_have(editor: Editor, t
     text += "      links:\n      - base\n"
     assert labels_at(editor, file, text + "      - ¦\n")[:1] == ["tip"]
     assert "base" not in labels_at(editor, file, text + "      - ¦\n")
+
+
+@pytest.mark.parametrize(
+    ("value", "offered"),
+    [("child: ¦", "palm thumb"), ("mimic: {joint: ¦}", "knuckle"), ("type: ¦", "revolute")],
+)
+def test_values_of_an_override_are_names_of_the_module(tmp_path: Path, value: str, offered: str):
+    joint = "knuckle: {type: continuous, parent: palm, child: thumb}"
+    links = "links: {palm: {}, thumb: {}}"
+    (tmp_path / "hand.robot.yaml").write_text(f"linkforge: 1\nname: hand\n{links}\njoints: {{{joint}}}\n")
+    path, use = tmp_path / "cell.robot.yaml", "use: hand.robot.yaml, parent: world"
+    saved = f"linkforge: 1\nname: cell\nlinks: {{world: {{}}}}\nmodules: {{h: {{{use}}}}}\n"
+    text, position = split_at_cursor(
+        saved.replace("world}", f"world, override: {{joints: {{knuckle: {{{value}}}}}}}}}")
+    )
+    with Editor(tmp_path) as editor:
+        editor.open(path, saved)
+        editor.diagnostics(path)
+        labels = [item.label for item in completions(editor, path, text, position)]
+    assert set(offered.split()) <= set(labels), labels
+    assert not {"forearm", "left_finger", "world"} & set(labels), labels

@@ -11,7 +11,7 @@ from linkforge_compile.expand import Instance
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.items import REQUIRED, Kind, Offer
 from linkforge_compile.lsp.cursor import MARKER
-from linkforge_compile.schema.descriptions import Described
+from linkforge_compile.schema.descriptions import Described, described_at
 from linkforge_compile.syntax import YamlMap, YamlScalar
 
 _SECTIONS = {"link": ("links",), "joint": ("joints",), "material": ("materials",), "group": ("semantic", "groups")}
@@ -31,9 +31,16 @@ def written(name: str, context: Context) -> str:
     return name if context.is_quoted else in_quotes_if_needed(name)
 
 
+def kinds_of_values(context: Context) -> tuple[str, ...]:
+    """Return the kinds of parts that a value here names; in an override, those of the value that it replaces."""
+    override = override_at(context)
+    branches = described_at(override[1]) if override else context.branches
+    return kinds_of_names(branches, NAMES)
+
+
 def offer_names(context: Context) -> list[Offer]:
     """Return the names that a value here may be."""
-    kinds = kinds_of_names(context.branches, NAMES)
+    kinds = kinds_of_values(context)
     offers = [
         Offer(name, written(name, context), Kind.Reference, REQUIRED, kind, sought=written(name, context))
         for kind in kinds

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.editor.completions import NAMES
 from linkforge_compile.lsp.completion.arguments import parameter_at, values_of
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.files import endings_at, names_file, offer_files
 from linkforge_compile.lsp.completion.items import COMMON, KNOWN, LIKELY, REQUIRED, Kind, Offer, unique
-from linkforge_compile.lsp.completion.names import kinds_of_names, offer_names
+from linkforge_compile.lsp.completion.names import kinds_of_values, offer_names
 from linkforge_compile.lsp.completion.snippets import in_flow
 from linkforge_compile.lsp.completion.units import offer_units
 from linkforge_compile.schema.descriptions import Described
@@ -24,7 +23,7 @@ def offer_values(context: Context) -> list[Offer]:
     if names_file(context):
         return offer_files(context, context.cursor.before, endings_at(context))
     offers = [*offer_names(context), *(values_of(parameter) if parameter else ())]
-    is_named = bool(kinds_of_names(context.branches, NAMES))
+    is_named = bool(kinds_of_values(context))
     for branch in context.branches:
         offers += _words(branch)
         offers += _snippets(branch)
