@@ -90,4 +90,5 @@ def plain_instance(spec: SpecFile, loader: Loader) -> Instance:
         mesh_bases={} if spec.folder is None else {spec.file: mesh_base(spec, spec)},
         find_mesh=mesh_finder({spec.file: (spec, spec.packages)}, loader),
         packages=spec.packages,
+        spec=spec,
     )

@@ -96,6 +96,7 @@ class _Expander:
             defaults=defaults,
             overrides=tuple(one.patch for one in use.entry.overrides) if use.entry else (),
             names=scope.evaluator,
+            spec=use.spec,
         )
 
     def _expand_module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:

@@ -17,6 +17,7 @@ from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 if TYPE_CHECKING:
     from linkforge_compile.expand.values import Evaluation
+    from linkforge_compile.load.loader import SpecFile
 
 COMPUTING = frozenset({"parameters", "variables", "data", "variants", "packages", "modules", "defaults"})
 """The sections that do not describe the robot but help to compute it."""
@@ -50,6 +51,7 @@ class Instance:
     - `defaults`: the computed defaults, None for none; the tree has them merged in.
     - `overrides`: the computed overrides for this use, which the tree has merged in, with the names in its file.
     - `names`: evaluates the names that the file declares; None for a file that declares none.
+    - `spec`: the file, with its tree as written; None if it cannot be read.
     """
 
     name: str
@@ -66,6 +68,7 @@ class Instance:
     defaults: YamlMap | None = None
     overrides: tuple[YamlMap, ...] = ()
     names: Evaluation | None = None
+    spec: SpecFile | None = None
 
     @property
     def with_modules(self) -> Iterator[Instance]:

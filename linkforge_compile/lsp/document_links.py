@@ -31,6 +31,14 @@ def document_links(document: Document, settings: Settings) -> list[types.Documen
     return [link for span, text in found.values() if (link := _link(document, user, loader, span, text))]
 
 
+def files_at(document: Document, at: Position, settings: Settings) -> list[types.Location]:
+    """Return the start of the file that the path at a position of an open spec names; none for other text."""
+    start = types.Range(types.Position(0, 0), types.Position(0, 0))
+    place = document.columns.position(document.file, at)
+    here = (link for link in document_links(document, settings) if link.range.start <= place <= link.range.end)
+    return [types.Location(link.target, start) for link in here if link.target]
+
+
 def _spec_of(document: Document) -> SpecFile | None:
     """Return the file of a document as the compiler read it, itself or as a part of another one."""
     for analysis in document.analyses:
@@ -49,6 +57,10 @@ def _paths(document: Document, user: SpecFile) -> Iterator[tuple[Span, str]]:
     last = Position(len(document.file.lines), 1)
     written = ((path, node) for path, node in leaves_in(user.tree) if document.holds(node.span))
     computed = ((one.path, one.node) for one in placed_in(document, Position(1, 1), last) if one.key is None)
+    # What is included is merged into the tree, without the paths.
+    for span in (file.included for analysis in document.analyses if analysis.spec for file in analysis.spec.included):
+        if span is not None and document.holds(span):
+            yield span, (span.text or "").strip("'\"")
     for path, node in (*written, *computed):
         if isinstance(node, YamlScalar) and _is_file(path, node):
             yield node.span, node.text

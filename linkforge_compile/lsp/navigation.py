@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
 
-from linkforge_compile.lsp.occurrences import Occurrence, Occurrences
+from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.occurrences import Occurrences
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
 from linkforge_compile.source import Position, Span
@@ -36,8 +37,11 @@ def _named(document: Document, at: Position) -> Iterator[Occurrence]:
 
 
 def _places(found: Iterable[Occurrence]) -> Iterable[Span]:
-    """Return each place once; each analysis has places of its own in a file."""
-    return {(str(one.span), one.span.end): one.span for one in found}.values()
+    """Return each place once; each analysis has places of its own in a file, which links may lead to as well."""
+    spans: dict[tuple[str, Position, Position], Span] = {}
+    for span in (one.span for one in found if one.span.file.path):
+        spans.setdefault((identity(span.file.path or ""), span.start, span.end), span)
+    return spans.values()
 
 
 def _locations(document: Document, found: Iterable[Occurrence]) -> list[types.Location]:

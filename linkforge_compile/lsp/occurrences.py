@@ -1,19 +1,20 @@
-"""Every place where a spec and its modules write the name of a part: where it is declared and where it is used.
+"""Every place where a spec and its modules write a name: where it is declared and where it is used.
 
-What a name names is marked in the schemas; the names themselves are read in the expanded trees, whose places lead to
-the texts.
+What the name of a part names is marked in the schemas; the names themselves are read in the expanded trees, whose
+places lead to the texts.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
 
 from linkforge_compile.analysis import Analysis
 from linkforge_compile.core.models.controller import MANAGER
 from linkforge_compile.editor.completions import KEYS, NAMES, marked_names
 from linkforge_compile.expand import Instance
 from linkforge_compile.expand.instance import joint_name_of
+from linkforge_compile.lsp.expression_names import SECTIONS, names_in
+from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.json_schema import Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
@@ -39,24 +40,8 @@ DECLARING = {
 _STATES = ("semantic", "group_states")
 
 
-COMPUTING = {("modules",): "module", ("parameters",): "parameter", ("variables",): "variable", ("data",): "data"}
+COMPUTING = {("modules",): "module", **{(section,): kind for section, kind in SECTIONS.items()}}
 """The sections of a file that only compute, and what their keys declare."""
-
-
-class Occurrence(NamedTuple):
-    """A name at a place; `name` is the final one, with the prefixes, of which `written` is what the place writes.
-
-    A place in a file that is used several times has an occurrence for each use. The text at the place is another one
-    where an expression makes the name. `suffix` is what the name has after what is written: `_joint` for the joint of
-    a frame or module that gives it no name.
-    """
-
-    kind: str
-    name: str
-    written: str
-    span: Span
-    is_declaration: bool = False
-    suffix: str = ""
 
 
 class Occurrences:
@@ -67,27 +52,31 @@ class Occurrences:
         self.all = tuple(_resolved(dict.fromkeys(found)))
 
     def at(self, path: str, position: Position) -> tuple[Occurrence, ...]:
-        """Return those at a place in the file with a real path, the innermost first."""
+        """Return those at a place in the file with a real path, the innermost first.
+
+        A name in an expression hides that of the part whose name the expression makes.
+        """
         here = (one for one in self.all if _is_in(one.span, path) and one.span.start <= position <= one.span.end)
 
         def size(one: Occurrence) -> tuple[int, int, int]:
             return one.span.end.line - one.span.line, len(one.span.text or ""), len(one.suffix)
 
-        return tuple(sorted(here, key=size))
+        found = tuple(sorted(here, key=size))
+        return tuple(one for one in found if one.scope) or found
 
     def of(self, names: Iterable[Occurrence]) -> tuple[Occurrence, ...]:
         """Return all occurrences of what the given ones name."""
-        wanted = {(one.kind, one.name) for one in names}
-        return tuple(one for one in self.all if (one.kind, one.name) in wanted)
+        wanted = {one.named for one in names}
+        return tuple(one for one in self.all if one.named in wanted)
 
 
 def _resolved(found: Iterable[Occurrence]) -> Iterator[Occurrence]:
     """Yield occurrences without those of kinds that have no such part, where a place may name one of several kinds."""
     found = tuple(found)
-    declared = {(one.kind, one.name) for one in found if one.is_declaration}
-    known = {(str(one.span), one.name) for one in found if (one.kind, one.name) in declared}
+    declared = {one.named for one in found if one.is_declaration}
+    known = {(str(one.span), one.name) for one in found if one.named in declared}
     for one in found:
-        if (one.kind, one.name) in declared or (str(one.span), one.name) not in known:
+        if one.named in declared or (str(one.span), one.name) not in known:
             yield one
 
 
@@ -98,6 +87,7 @@ def _is_in(span: Span, path: str) -> bool:
 def _in_instance(instance: Instance, outer: str) -> Iterator[Occurrence]:
     """Yield the occurrences in a use of a file, whose entry is written in the file around it, and in its modules."""
     prefix = outer + instance.prefix
+    yield from names_in(instance)
     if instance.tree is not None:
         walker = _Walker(prefix)
         yield from walker.declarations(instance.tree)

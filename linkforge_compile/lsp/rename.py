@@ -1,7 +1,7 @@
-"""Rename a part in all specs of a workspace that name it, or refuse with the reason.
+"""Rename a part, or a name of expressions, in all specs of a workspace that use it, or refuse with the reason.
 
 A module's link is renamed in the module and, with its prefixes, in the specs that use it. The result is compiled before
-it is offered: the robots may differ in the name only.
+it is offered: the robots may differ in the name of the part only.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.formats.render import render, render_srdf, render_urdf
 from linkforge_compile.lsp.convert import uri_of
-from linkforge_compile.lsp.occurrences import Occurrence, Occurrences
+from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.occurrences import Occurrences
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
 from linkforge_compile.source import Position, SourceFile, Span
@@ -25,6 +26,9 @@ from linkforge_compile.syntax import has_expression
 
 _PLAIN_NAME = re.compile(r"[^\s'\"$(){}\[\],:#&*!|>%@`]+")
 """A name that YAML reads the same with and without quotes, wherever it is written."""
+
+
+_EXPRESSION_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 class RefusedError(Exception):
@@ -40,11 +44,11 @@ class Renaming(NamedTuple):
     kind: str
     name: str
     occurrences: tuple[Occurrence, ...]
-    suffixes: Mapping[tuple[str, str], str]
-    """Those of parts that have one, by kind and final name."""
+    suffixes: Mapping[tuple[str, str, str], str]
+    """Those of parts that have one, by what they name."""
 
     def suffix(self, one: Occurrence) -> str:
-        return self.suffixes.get((one.kind, one.name), "")
+        return self.suffixes.get(one.named, "")
 
     def renamed(self, one: Occurrence, new: str) -> str:
         """Return the final name of an occurrence after the change."""
@@ -72,8 +76,8 @@ def renamed_at(document: Document, at: Position) -> tuple[Span, Renaming] | None
         raise RefusedError(f"no spec declares the {here.kind} '{here.name}'")
     if here.kind == "module":
         _refuse_prefix(here, document.analyses)
-    suffixes = {(one.kind, one.name): one.suffix for one in declared if one.suffix}
-    own = [one for one in declared if (one.kind, one.name) == (here.kind, here.name)]
+    suffixes = {one.named: one.suffix for one in declared if one.suffix}
+    own = [one for one in declared if one.named == here.named]
     renaming = Renaming(here.kind, min(map(_fixed_end, own), key=len), found, suffixes)
     return _unquoted(here.span), renaming
 
@@ -92,7 +96,11 @@ def rename(document: Document, at: Position, new: str, settings: Settings) -> ty
     edits = _places_by_file(renaming)
     local = _local_name(new, span.text or "", renaming)
     texts = {path: _edited(places[0].file, places, local) for path, places in edits.items()}
-    _prove(document.analyses, renaming, local, settings._replace(buffers={**settings.buffers, **texts}))
+    if any(one.scope for one in renaming.occurrences) and not _EXPRESSION_NAME.fullmatch(local):
+        raise RefusedError(f"'{local}' is no name that expressions can use: letters, digits and '_'")
+    for analysis in document.analyses:
+        for variant in _variants_of(analysis):
+            _prove(analysis, renaming, local, settings._replace(variant=variant), texts)
     changes: dict[str, Sequence[types.TextEdit]] = {}
     for places in edits.values():
         if path := places[0].file.path:
@@ -131,25 +139,26 @@ def _places_by_file(renaming: Renaming) -> dict[str, list[Span]]:
     """Return where the name is written, each place once, by the real path of the file."""
     # Those with an expression first, since the reason of a refusal is there.
     spans = [_place_of(one, renaming) for one in sorted(renaming.occurrences, key=_is_made, reverse=True)]
-    found: dict[str, list[Span]] = {}
-    for span in {(str(span), span.end): span for span in spans if span.file.path}.values():
-        found.setdefault(identity(span.file.path or ""), []).append(span)
-    return found
+    found: dict[str, dict[tuple[Position, Position], Span]] = {}
+    for span in spans:
+        if span.file.path:
+            found.setdefault(identity(span.file.path), {}).setdefault((span.start, span.end), span)
+    return {path: [*places.values()] for path, places in found.items()}
 
 
 def _connected(indexes: Sequence[Occurrences], first: Occurrence) -> list[Occurrence]:
     """Return the occurrences of all parts that are renamed with one, since a place writes the names of both."""
     at_place: dict[str, list[tuple[int, Occurrence]]] = {}
-    of_part: dict[tuple[int, str, str], list[Occurrence]] = {}
+    of_part: dict[tuple[int, tuple[str, str, str]], list[Occurrence]] = {}
     for number, index in enumerate(indexes):
         for one in index.all:
             at_place.setdefault(str(one.span), []).append((number, one))
-            of_part.setdefault((number, one.kind, one.name), []).append(one)
+            of_part.setdefault((number, one.named), []).append(one)
     found: dict[Occurrence, None] = {}
     reached, waiting = {str(first.span)}, [str(first.span)]
     while waiting:
         for number, one in at_place[waiting.pop()]:
-            for other in of_part.pop((number, one.kind, one.name), ()):
+            for other in of_part.pop((number, one.named), ()):
                 found[other] = None
                 if str(other.span) not in reached:
                     reached.add(str(other.span))
@@ -203,27 +212,33 @@ def _edited(file: SourceFile, places: Iterable[Span], new: str) -> str:
     return "".join(lines)
 
 
-def _prove(analyses: Iterable[Analysis], renaming: Renaming, new: str, settings: Settings) -> None:
-    """Compile each spec with the edits; RefusedError unless its robot differs in the name only."""
-    for analysis in analyses:
-        path = analysis.spec.file.path if analysis.spec else None
-        if path is None:
-            continue
-        own = frozenset(Occurrences(analysis).all)
-        names = {(one.kind, one.name): renaming.renamed(one, new) for one in renaming.occurrences if one in own}
-        taken = {(one.kind, one.name) for one in own if one.is_declaration}
-        for (kind, _), name in names.items():
-            if (kind, name) in taken:
-                raise RefusedError(f"there is a {kind} '{name}' already")
-        changed = analyse_path(path, settings)
-        _refuse_new_errors(analysis, changed)
-        documents = _documents(changed)
-        others = {_in_documents(one.kind, one.name) for one in Occurrences(changed).all}
-        finals = {_in_documents(kind, old): _in_documents(kind, name) for (kind, old), name in names.items()}
-        for name in finals:
-            _refuse_left(name, documents, is_other=name in others)
-        if _alike(_documents(analysis), finals) != _alike(documents, finals):
-            raise RefusedError(f"the robot of {path} would differ in more than the name")
+def _variants_of(analysis: Analysis) -> tuple[str | None, ...]:
+    """Return with what a spec is compiled: the defaults of its parameters, and each of its variants."""
+    return (None, *analysis.spec.tree.section("variants")) if analysis.spec else ()
+
+
+def _prove(analysis: Analysis, renaming: Renaming, new: str, settings: Settings, texts: Mapping[str, str]) -> None:
+    """Compile a spec with the edited texts; RefusedError unless its robot differs in the name only."""
+    path = analysis.spec.file.path if analysis.spec else None
+    if path is None:
+        return
+    own = frozenset(Occurrences(analysis).all)
+    names = {one.named: renaming.renamed(one, new) for one in renaming.occurrences if one in own}
+    taken = {one.named for one in own if one.is_declaration}
+    for (kind, _, scope), name in names.items():
+        if (kind, name, scope) in taken:
+            raise RefusedError(f"there is a {kind} '{name}' already")
+    before = analysis if settings.variant is None else analyse_path(path, settings)
+    changed = analyse_path(path, settings._replace(buffers={**settings.buffers, **texts}))
+    _refuse_new_errors(before, changed)
+    documents = _documents(changed)
+    others = {_in_documents(one.kind, one.name) for one in Occurrences(changed).all if not one.scope}
+    parts = {(kind, old): name for (kind, old, scope), name in names.items() if not scope}
+    finals = {_in_documents(kind, old): _in_documents(kind, name) for (kind, old), name in parts.items()}
+    for name in finals:
+        _refuse_left(name, documents, is_other=name in others)
+    if _alike(_documents(before), finals) != _alike(documents, finals):
+        raise RefusedError(f"the robot of {path} would differ in more than the name")
 
 
 def _refuse_new_errors(before: Analysis, after: Analysis) -> None:

@@ -20,7 +20,7 @@ from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
 from linkforge_compile.lsp.diagnostics import diagnostics_by_uri
-from linkforge_compile.lsp.document_links import document_links
+from linkforge_compile.lsp.document_links import document_links, files_at
 from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.hover import hover
@@ -218,7 +218,10 @@ def _add_navigation(server: SpecServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def _define(params: types.DefinitionParams) -> list[types.Location]:
         document = await server.analysed(params.text_document.uri)
-        return declarations_of(document, document.place(params.position)) if document else []
+        if document is None:
+            return []
+        at, settings = document.place(params.position), server.specs.settings()
+        return declarations_of(document, at) or await server.in_thread(partial(files_at, document, at, settings))
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def _refer(params: types.ReferenceParams) -> list[types.Location]:

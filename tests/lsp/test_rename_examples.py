@@ -12,7 +12,8 @@ from pygls.workspace import PositionCodec
 from linkforge_compile import render
 from linkforge_compile.analysis import analyse_path
 from linkforge_compile.lsp.convert import Columns, path_of
-from linkforge_compile.lsp.occurrences import Occurrence, Occurrences
+from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.occurrences import Occurrences
 from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users
 from linkforge_compile.roots import identity

@@ -9,7 +9,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.expand import Instance
 from linkforge_compile.listing import as_written
 from linkforge_compile.lsp.hover.text import bullets, code
-from linkforge_compile.lsp.occurrences import Occurrence
+from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.source import SourceRef
 from linkforge_compile.source.provenance import Kind
 

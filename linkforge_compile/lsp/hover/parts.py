@@ -18,7 +18,8 @@ from linkforge_compile.lsp.cursor import Cursor, Role
 from linkforge_compile.lsp.hover.modules import describe_module
 from linkforge_compile.lsp.hover.text import MAX_SHOWN, RULE, and_more, bullets, code, code_block
 from linkforge_compile.lsp.hover.values import quantity_of
-from linkforge_compile.lsp.occurrences import DECLARING, Occurrence, Occurrences
+from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.occurrences import DECLARING, Occurrences
 from linkforge_compile.lsp.placed import is_malformed, uses_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
