@@ -14,7 +14,7 @@ from lsprotocol import types
 from lxml import etree
 
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
-from linkforge_compile.diagnostics import Severity
+from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.formats.render import render, render_srdf, render_urdf
 from linkforge_compile.lsp.convert import uri_of
 from linkforge_compile.lsp.occurrence import Occurrence
@@ -63,6 +63,8 @@ def renamed_at(document: Document, at: Position) -> tuple[Span, Renaming] | None
         RefusedError: the name cannot be changed where it is written.
 
     """
+    if document.analysis and document.analysis.instance is None:
+        raise RefusedError("the text cannot be read; mend it first")
     indexes = [Occurrences(analysis) for analysis in document.analyses]
     real = identity(document.path)
     here = next((found[0] for index in indexes if (found := index.at(real, at))), None)
@@ -240,14 +242,15 @@ def _prove(analysis: Analysis, renaming: Renaming, new: str, settings: Settings,
 
 
 def _refuse_new_errors(before: Analysis, after: Analysis) -> None:
-    errors = [
-        [one for one in analysis.compilation.diagnostics if one.severity is Severity.ERROR]
-        for analysis in (before, after)
-    ]
-    if len(errors[1]) > len(errors[0]):
-        known = {one.code for one in errors[0]}
-        fault = next((one for one in errors[1] if one.code not in known), errors[1][0])
-        raise RefusedError(str(fault))
+    """Raise RefusedError for a spec with errors, whose robot cannot be compared, and for errors of the new name."""
+    if fault := _first_error(before):
+        raise RefusedError(f"mend the errors first: {fault}")
+    if fault := _first_error(after):
+        raise RefusedError(f"the new name would break the robot: {fault}")
+
+
+def _first_error(analysis: Analysis) -> Diagnostic | None:
+    return next((one for one in analysis.compilation.diagnostics if one.severity is Severity.ERROR), None)
 
 
 def _in_documents(kind: str, name: str) -> str:

@@ -165,3 +165,14 @@ def test_a_module_without_a_prefix_is_refused(editor: Editor, robot: Path):
     cell = CELL.replace("left: {use: arm.robot.yaml,", "left: {use: arm.robot.yaml, prefix: left_,")
     found = renamed(editor, robot / "cell.robot.yaml", cell.replace("  left: {use", "  le¦ft: {use"), "port")
     assert found == {"cell": cell.replace("  left:", "  port:")}
+
+
+def test_a_spec_with_errors_is_refused_with_the_first_one(editor: Editor, robot: Path):
+    faulty = ARM.replace("type: revolute", "type: revolt")
+    with pytest.raises(JsonRpcException, match=r"mend the errors first: .*arm\.robot\.yaml:7:\d+"):
+        renamed(editor, robot / "arm.robot.yaml", faulty.replace("  tip:", "  t¦ip:"), "hand")
+
+
+def test_a_text_that_cannot_be_read_is_refused(editor: Editor, robot: Path):
+    with pytest.raises(JsonRpcException, match="the text cannot be read; mend it first"):
+        renamed(editor, robot / "arm.robot.yaml", ARM.replace("  tip: {}", "  t¦ip: {"), "hand")
