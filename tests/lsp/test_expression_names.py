@@ -24,7 +24,7 @@ variants:
   long: {reach: 2 m}
 links:
   base: {}
-  "part_$(i)": {for: {i: 2}, inertial: {mass: $(i + 1) kg}}
+  "part_$(i)": {for: {i: 2}, visual: {box: [$(i + 1), 1, 1]}}
 joints:
   joint_$(i):
     {for: {i: 2}, type: fixed, parent: base, child: part_$(i), origin: {xyz: ["$(half)", $(offsets.y), $( reach*2 )]}}
