@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from itertools import chain
 from pathlib import Path
 from threading import Condition
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.analysis import Parameters, Settings, analyse_path
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.render_text import MOST_SHOWN, snippet
-from linkforge_compile.diagnostics.reports import Selection, count_losses
-from linkforge_compile.expand import CliArgument, arguments_from_text
+from linkforge_compile.analysis import Settings, analyse_path
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.reports import Selection
+from linkforge_compile.expand import CliArgument
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
-from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
+from linkforge_compile.listing import Listing
 from linkforge_compile.pipeline import parameters_of
 from linkforge_compile.view.files import RobotFiles, collect_files
-from linkforge_compile.view.scene import Scene, make_scene
+from linkforge_compile.view.scene import Scene, SceneView, make_scene
+from linkforge_compile.view.updates import Update, problems_of, shown_settings, values_of
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
 PANEL = "<parameters>"
 """The name of the page's panel as the place of a value, in diagnostics."""
+
+ViewOf: TypeAlias = "Callable[[Robot], SceneView] | None"
+"""Returns how a robot is shown first; None for without any options."""
 
 ALL = Selection()
 """What is reported without options: everything."""
@@ -45,58 +48,6 @@ NO_SCENE: Scene = {
 
 Changes: TypeAlias = tuple[Path | str, ...]
 """Files, and what else has changed, by its name."""
-
-
-class Problem(TypedDict):
-    """A diagnostic as the page shows it; file, line and column are None for one without a place in a file.
-
-    `page` is the address of the code's manual page, below that of the viewer. `hints` are its notes and fixes, and
-    `snippet` is the line at fault with a caret under the words, "" for none.
-    """
-
-    severity: str
-    code: str
-    message: str
-    file: str | None
-    line: int | None
-    column: int | None
-    page: str
-    hints: list[str]
-    snippet: str
-
-
-class ParameterSetting(TypedDict):
-    """A parameter as its widget shows it; numbers are in `unit`, an SI unit.
-
-    `value` is what the user set, as text; None for the default, which the chosen variant may replace.
-    """
-
-    name: str
-    type: str | None
-    unit: str | None
-    value: str | None
-    default: str | None
-    minimum: Plain
-    maximum: Plain
-    choices: list[Plain] | None
-    description: str
-
-
-class ShownSettings(TypedDict):
-    """What the user may set, with what is set."""
-
-    parameters: list[ParameterSetting]
-    variants: list[str]
-    variant: str | None
-
-
-class Update(TypedDict):
-    """What a page receives; `scene` is None if it shows that already."""
-
-    version: int
-    scene: Scene | None
-    problems: list[Problem]
-    settings: ShownSettings
 
 
 class State(NamedTuple):
@@ -123,8 +74,8 @@ class State(NamedTuple):
         return {
             "version": self.version,
             "scene": self.scene if version < self.scene_version else None,
-            "problems": _problems(self.diagnostics),
-            "settings": _shown_settings(self.settings, self.listing),
+            "problems": problems_of(self.diagnostics),
+            "settings": shown_settings(self.settings, self.listing),
         }
 
     def content_of(self, digest: str) -> tuple[str, bytes] | None:
@@ -133,7 +84,9 @@ class State(NamedTuple):
         return (file.kind, file.content) if file else None
 
 
-def compile_state(spec: Path, settings: Settings, selection: Selection, last: State) -> State:
+def compile_state(
+    spec: Path, settings: Settings, last: State, selection: Selection = ALL, view_of: ViewOf = None
+) -> State:
     """Compile a spec and return what is shown next; what is new in a spec with errors is its problems.
 
     What the page sets of parameters that the spec no longer declares has no effect.
@@ -153,12 +106,12 @@ def compile_state(spec: Path, settings: Settings, selection: Selection, last: St
     if compilation.robot is None:
         # The files of the last scene may be what was changed to correct it.
         return state._replace(watched=tuple(dict.fromkeys((*state.watched, *last.watched))))
-    return _with_scene(state, compilation.robot)
+    return _with_scene(state, compilation.robot, view_of(compilation.robot) if view_of else None)
 
 
-def _with_scene(state: State, robot: Robot) -> State:
+def _with_scene(state: State, robot: Robot, view: SceneView | None) -> State:
     files = collect_files(robot)
-    scene = make_scene(robot, files, is_live=True)
+    scene = make_scene(robot, files, view, is_live=True)
     scene["version"] = state.scene_version
     shapes = places_of_files(robot, chain(mesh_paths(robot), texture_paths(robot)))
     state = state._replace(watched=tuple(dict.fromkeys((*state.watched, *shapes))))
@@ -171,8 +124,8 @@ def _with_scene(state: State, robot: Robot) -> State:
 class Session:
     """The state that pages show: one thread renews it, and others choose settings and wait for updates."""
 
-    def __init__(self, spec: Path, settings: Settings, selection: Selection = ALL) -> None:
-        self._spec, self._settings, self._selection = spec, settings, selection
+    def __init__(self, spec: Path, settings: Settings, selection: Selection = ALL, view_of: ViewOf = None) -> None:
+        self._spec, self._settings, self._selection, self._view_of = spec, settings, selection, view_of
         self._state = State()
         self._watcher = FileWatcher([spec])
         self._news = Condition()
@@ -193,7 +146,7 @@ class Session:
         began = time.time_ns()
         with self._news:
             settings = self._settings
-        state = compile_state(self._spec, settings, self._selection, self._state)
+        state = compile_state(self._spec, settings, self._state, self._selection, self._view_of)
         self._watcher.track(state.watched, began)
         with self._news:
             self._state = state
@@ -236,14 +189,6 @@ class Session:
             self._news.notify_all()
 
 
-def values_of(parameters: Parameters | None) -> dict[str, str]:
-    """Return what parameters are set to, as text by name."""
-    if isinstance(parameters, Mapping):
-        return {name: value.text for name, value in parameters.items() if isinstance(value, CliArgument)}
-    entries = arguments_from_text(tuple(parameters or ()), Diagnostics()).entries
-    return {name: as_written(entry.value) for name, entry in entries.items()}
-
-
 def _with_declared_only(settings: Settings, listing: Listing | None) -> Settings:
     """Leave out what the page set of parameters that are not declared; those of the command line are reported."""
     if listing is None or not isinstance(settings.parameters, Mapping):
@@ -252,62 +197,3 @@ def _with_declared_only(settings: Settings, listing: Listing | None) -> Settings
     return settings._replace(
         parameters={name: value for name, value in settings.parameters.items() if name in declared}
     )
-
-
-def _shown_settings(settings: Settings, listing: Listing | None) -> ShownSettings:
-    if listing is None:
-        return {"parameters": [], "variants": [], "variant": settings.variant}
-    values, by_variant = values_of(settings.parameters), dict[str, str]()
-    for name in (settings.variant or "").split("+"):
-        by_variant |= listing.variants.get(name, {})
-    return {
-        "parameters": [_shown(one, values.get(one.name), by_variant.get(one.name)) for one in listing.parameters],
-        "variants": list(listing.variants),
-        "variant": settings.variant,
-    }
-
-
-def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None) -> ParameterSetting:
-    default = parameter.default if of_variant is None else of_variant
-    if of_variant is None and "$(" in (default or ""):
-        default = parameter.computed or default
-    return {
-        "name": parameter.name,
-        "type": parameter.type,
-        "unit": parameter.unit,
-        "value": value,
-        "default": default,
-        "minimum": parameter.minimum,
-        "maximum": parameter.maximum,
-        "choices": parameter.choices,
-        "description": parameter.description,
-    }
-
-
-def _problems(diagnostics: Iterable[Diagnostic]) -> list[Problem]:
-    """Return the diagnostics that a report in text shows, errors first."""
-    diagnostics = tuple(diagnostics)
-    shown = [one for one in count_losses(diagnostics, [diagnostics]) if not one.is_only_counted]
-    shown.sort(key=lambda one: list(Severity).index(one.severity))
-    return [_problem(one) for one in shown[:MOST_SHOWN]]
-
-
-def _problem(one: Diagnostic) -> Problem:
-    span = one.span if one.span and one.span.file.path else None
-    return {
-        "severity": one.severity.value,
-        "code": one.code.id,
-        "message": one.message,
-        "file": span.file.shown if span else None,
-        "line": span.line if span else None,
-        "column": span.column if span else None,
-        "page": f"codes/{one.code.id}",
-        "hints": list(_hints(one)),
-        "snippet": "\n".join(snippet(one.span)),
-    }
-
-
-def _hints(one: Diagnostic) -> Iterator[str]:
-    for note in one.notes:
-        yield f"{note.span}: {note.message}" if note.span else note.message
-    yield from (fix.title for fix in one.fixes)
