@@ -172,7 +172,10 @@ class SceneComparison(TypedDict):
 
 
 class Scene(TypedDict):
-    """All that the page draws; a joint comes after the joint above it, `files` are by digest."""
+    """All that the page draws; a joint comes after the joint above it, `files` are by digest.
+
+    `version` is that of a live viewer in which the scene was new.
+    """
 
     name: str
     links: list[SceneLink]
@@ -182,6 +185,7 @@ class Scene(TypedDict):
     missing: list[SceneMissing]
     view: SceneView
     live: bool
+    version: NotRequired[int]
     comparison: NotRequired[SceneComparison]
 
 
