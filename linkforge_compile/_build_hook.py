@@ -16,9 +16,9 @@ _NPM = (("ci", "--ignore-scripts", "--no-audit", "--no-fund"), ("run", "build"))
 
 
 class MadeFiles(BuildHookInterface[Any]):  # Any: the configuration of whatever builder runs it
-    """Puts made files into the wheel, in `linkforge_compile/_data`, and the viewer's page into the folder of its sources.
+    """Puts made files into the wheel, in `linkforge_compile/_data`, and builds the viewer's page where its sources are.
 
-    An editable install has no file of the first kind, and works without them.
+    An editable install has the page only, and works without the others.
     """
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:

@@ -50,9 +50,8 @@ def manual_folder() -> Path:
 
 def view_page_file() -> Path:
     """Return the page of the viewer; a checkout has one once npm has built it."""
-    return (
-        _packed() / "view.html" if _packed().is_dir() else Path(__file__).parent / "view" / "page" / "out" / "view.html"
-    )
+    name = "view.html"
+    return _packed() / name if _packed().is_dir() else Path(__file__).parent / "view" / "page" / "out" / name
 
 
 def matcher_file() -> Path:
