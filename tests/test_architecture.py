@@ -54,7 +54,7 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
         "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
-        "export_spec editor roots paths resources formats lower _version"
+        "export_spec editor roots paths resources formats lower compilation _version"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
