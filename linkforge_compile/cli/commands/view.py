@@ -70,6 +70,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=sorted(set(_FORMATS_BY_ENDING.values())),
         help="the form of an output with another ending, or of -o -",
     )
+    _add_view_options(parser)
+    add_spec_options(parser)
+    add_report_options(parser)
+
+
+def _add_view_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options about how the robot is shown first."""
     parser.add_argument(
         "--pose",
         metavar="GROUP/STATE",
@@ -99,8 +106,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_layers,
         help=f"what is shown, instead of visuals and grid: {', '.join(LAYERS)}",
     )
-    add_spec_options(parser)
-    add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -162,7 +167,7 @@ def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
 
 def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
     """Print what is not shown, by reason, with the place of the first file of each."""
-    by_reason = defaultdict[str, list[MissingFile]](list)
+    by_reason: dict[str, list[MissingFile]] = defaultdict(list)
     for missing in files.missing:
         by_reason[missing.reason].append(missing)
     for reason, (first, *others) in by_reason.items():
