@@ -56,7 +56,7 @@ MAY_IMPORT = {
         "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
         "export_spec editor roots paths resources formats lower _version"
     ),
-    "view": "source diagnostics checks formats core roots resources",
+    "view": ("source diagnostics checks formats core roots resources expand listing analysis pipeline file_watcher"),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
         "importing formats formatter export_spec compare collisions view editor lsp resources file_watcher _version"

@@ -146,7 +146,10 @@ class SceneView(TypedDict):
 
 
 class Scene(TypedDict):
-    """All that the page draws; a joint comes after the joint above it, `files` are by digest."""
+    """All that the page draws; a joint comes after the joint above it, `files` are by digest.
+
+    `version` is that of a live viewer in which the scene was new.
+    """
 
     name: str
     links: list[SceneLink]
@@ -156,6 +159,7 @@ class Scene(TypedDict):
     missing: list[SceneMissing]
     view: SceneView
     live: bool
+    version: NotRequired[int]
 
 
 def make_scene(robot: Robot, files: RobotFiles, view: SceneView | None = None, *, is_live: bool = False) -> Scene:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _FORMATS_BY_ENDING = {".html": "html", ".htm": "html", ".png": "png"}
 
-LAYERS = ("visuals", "collisions", "frames", "axes", "centers", "inertias", "grid")
+LAYERS = ("visuals", "collisions", "frames", "axes", "centers", "inertias", "grid", "labels")
 """What the page can show, as in `view/page/src/state.ts`."""
 
 DEFAULT_SIZE = "1280x960"
