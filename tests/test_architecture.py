@@ -59,7 +59,8 @@ MAY_IMPORT = {
     "view": ("source diagnostics checks formats core roots resources expand listing analysis pipeline file_watcher"),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats formatter export_spec compare collisions view editor lsp resources file_watcher _version"
+        "importing formats formatter export_spec compare collisions view editor lsp resources units file_watcher "
+        "_version"
     ),
 }
 

@@ -77,12 +77,34 @@ def test_a_spec_with_errors_writes_nothing(arm: Path):
 
 
 @pytest.mark.parametrize(
+    ("poses", "position"),
+    [
+        (("arm/out",), 1),
+        (("home",), 0.5),
+        (("bend=0.25",), 0.25),
+        (("bend=-90 deg",), -1.5707963267948966),
+        (("out", "bend=90deg"), 1.5707963267948966),
+        (("bend=90deg", "out"), 1),
+    ],
+)
+def test_a_pose_is_a_state_or_a_position(arm: Path, poses: tuple[str, ...], position: float):
+    words = [word for pose in poses for word in ("--pose", pose)]
+    assert linkforge("view", "arm.robot.yaml", "-o", "a.html", *words, cwd=arm).returncode == 0
+    assert scene_in(arm / "a.html")["view"]["pose"] == {"bend": pytest.approx(position)}
+
+
+@pytest.mark.parametrize(
     ("words", "reason"),
     [
         ((), "-o FILE.html for a page, or -o FILE.png"),
         (("-o", "arm.svg"), "ends in .html or .png, found 'arm.svg'"),
         (("-o", "a.html", "-o", "a.html"), "is given twice"),
         (("-o", "a.html", "--pose", "arm/hom"), "no state 'arm/hom'; did you mean 'arm/home'?"),
+        (("-o", "a.html", "--pose", "hom"), "no state 'hom'; did you mean 'home'?"),
+        (("-o", "a.html", "--pose", "bned=1"), "'bned' is not a joint of the robot; did you mean 'bend'?"),
+        (("-o", "a.html", "--pose", "bend=3"), "--pose bend=3: 'bend' is from -2 to 2 rad"),
+        (("-o", "a.html", "--pose", "bend=1 m"), "takes a number in rad, or with its unit, found '1 m'"),
+        (("-o", "a.html", "--pose", "bend=up"), "takes a number in rad, or with its unit, found 'up'"),
         (("-o", "a.html", "--camera", "1"), "takes AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres, found '1'"),
         (("-o", "a.html", "--camera", "1,nan"), "found '1,nan'"),
         (("-o", "a.html", "--camera", "1,91"), "from -90 to 90"),
