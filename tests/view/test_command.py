@@ -9,8 +9,9 @@ import pytest
 
 from linkforge_compile.cli.commands.view import LAYERS
 from linkforge_compile.view import html, picture
-from linkforge_compile.view.html import page_file
 from tests.cli.in_process import linkforge
+
+PAGE = Path(html.__file__).parent / "page"
 
 SPEC = """\
 linkforge: 1
@@ -34,7 +35,7 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     page = tmp_path / "page" / "out" / "view.html"
     page.parent.mkdir(parents=True)
     page.write_text('<head></head><body><script id="scene" type="application/json">null</script></body>', "utf-8")
-    monkeypatch.setattr(html, "page_file", lambda: page)
+    monkeypatch.setattr(html, "view_page_file", lambda: page)
     (tmp_path / "arm.robot.yaml").write_text(SPEC, "utf-8")
     return tmp_path
 
@@ -159,6 +160,6 @@ def test_a_picture_has_the_size_that_is_asked_for(page: Path, browser: object, t
 
 
 def test_the_layers_are_those_of_the_page():
-    text = (page_file().parents[1] / "src" / "state.ts").read_text("utf-8")
+    text = (PAGE / "src" / "state.ts").read_text("utf-8")
     (layers,) = re.findall(r"LAYERS = \[(.*?)\]", text)
     assert tuple(re.findall(r'"(\w+)"', layers)) == LAYERS
