@@ -16,7 +16,13 @@ from linkforge_compile.checks.mesh_files import LFS_POINTER
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Visual
 from linkforge_compile.core.resolver import FileSystemResolver
-from linkforge_compile.formats.mesh_paths import find_file, reason_not_found
+from linkforge_compile.formats.mesh_paths import (
+    find_file,
+    mesh_paths,
+    places_of_files,
+    reason_not_found,
+    texture_paths,
+)
 from linkforge_compile.roots import ANYWHERE
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_bytes
@@ -56,11 +62,15 @@ class MissingFile(NamedTuple):
 
 
 class RobotFiles(NamedTuple):
-    """The files of a robot by digest, the digests of those that its shapes name, and those that are missing."""
+    """The files of a robot by digest, the digests of those that its shapes name, and those that are missing.
+
+    `paths` are those of all files on which these depend; some may not exist.
+    """
 
     files: Mapping[str, File] = MappingProxyType({})
     digests: Mapping[str, str] = MappingProxyType({})
     missing: Sequence[MissingFile] = ()
+    paths: Sequence[Path] = ()
 
 
 class _Wanted(NamedTuple):
@@ -83,7 +93,8 @@ def collect_files(robot: Robot) -> RobotFiles:
             MissingFile(f"{name} in {resource}", reason, tuple(wanted.links), wanted.source)
             for name, reason in reader.take_faults()
         )
-    return RobotFiles(reader.files, digests, missing)
+    paths = dict.fromkeys((*reader.paths, *places_of_files(robot, (*mesh_paths(robot), *texture_paths(robot)))))
+    return RobotFiles(reader.files, digests, missing, tuple(paths))
 
 
 def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
@@ -110,6 +121,7 @@ class _Reader:
         self._faults: list[tuple[str, str]] = []
         self._left = MAX_ALL_BYTES
         self.files: dict[str, File] = {}
+        self.paths: list[Path] = []
 
     def take_faults(self) -> list[tuple[str, str]]:
         """Return the files that were named in those read since the last call and are missing, with the reasons."""
@@ -124,6 +136,7 @@ class _Reader:
         if path is None:
             raise UnreadableError(reason_not_found(self._robot, resource))
         if path not in self._digests:
+            self.paths.append(path)
             self._digests[path] = self._add(path, kind)
         return self._digests[path]
 
