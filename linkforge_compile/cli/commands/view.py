@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections import defaultdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,12 +18,13 @@ from linkforge_compile.cli.options import (
     states_of,
 )
 from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
+from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.targets import file_to_write
 
 if TYPE_CHECKING:
     from linkforge_compile.cli.output import Content
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.view.files import RobotFiles
+    from linkforge_compile.view.files import MissingFile, RobotFiles
     from linkforge_compile.view.picture import Size
     from linkforge_compile.view.scene import Scene, SceneCamera, SceneView
 
@@ -193,10 +195,14 @@ def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
 
 
 def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
-    """Print what is not shown, with its place; the compile has warned of some of it, but not of all."""
+    """Print what is not shown, by reason, with the place of the first file of each."""
+    by_reason = defaultdict[str, list[MissingFile]](list)
     for missing in files.missing:
-        place = f"{missing.source.span}: " if missing.source else ""
-        print_status(f"{place}'{missing.resource}' is not shown: {missing.reason}", arguments)
+        by_reason[missing.reason].append(missing)
+    for reason, (first, *others) in by_reason.items():
+        place = f"{first.source.span}: " if first.source else ""
+        what = f"'{first.resource}' and {count(len(others), 'other file')} are" if others else f"'{first.resource}' is"
+        print_status(f"{place}{what} not shown: {reason}", arguments)
 
 
 def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Namespace) -> Content:
