@@ -20,14 +20,13 @@ from linkforge_compile.schema.number_texts import (
     numbers_in_row,
 )
 from linkforge_compile.schema.shapes import (
-    FREE,
     SchemaMismatch,
     expected,
     is_number,
     is_text,
     nested,
     node_at,
-    shapes,
+    shape_at,
     shown,
     split_path,
 )
@@ -44,11 +43,13 @@ class Hint(NamedTuple):
     """The text to write for the value, "" if something else has to change."""
     is_safe: bool = False
     """Whether nothing else can be intended."""
+    around: Span | None = None
+    """The span to write it to, if that is more than the value."""
 
     def fix(self, span: Span) -> Fix | None:
         """Return the fix of the value at a span; None if there is none, or if a part of it is not shown."""
         is_whole = self.value != "" and "…" not in self.value
-        return Replacement("", self.value, self.is_safe).within(span) if is_whole else None
+        return Replacement("", self.value, self.is_safe).within(self.around or span) if is_whole else None
 
 
 _NO_HINT = Hint()
@@ -148,14 +149,18 @@ def _row(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
 
 def _list_around(mismatch: SchemaMismatch) -> Hint:
     """The whole list of an item that holds several numbers, or a part of one."""
-    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shapes()
-    for key in mismatch.path[:-1]:
-        shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
+    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shape_at(mismatch.path[:-1])
     if not isinstance(around, YamlList) or len(around) > MOST_ITEMS:
         return _NO_HINT
     parts = [f"{',' if _is_adjacent(before, item) else ', '}{shown(item)}" for before, item in pairwise(around)]
     numbers = numbers_in_row("".join((*map(shown, around.items[:1]), *parts)), list_lengths(shape.schema))
-    return _change(_field_with(mismatch.path[-2], _as_list(numbers))) if numbers else _NO_HINT
+    if not numbers:
+        return _NO_HINT
+    value = _as_list(numbers)
+    change = _change(_field_with(mismatch.path[-2], value))
+    is_in_brackets = (around.span.text or "").startswith("[")
+    # Of several items, a comma may be that of a decimal number.
+    return change._replace(value=value, is_safe=len(around) == 1, around=around.span) if is_in_brackets else change
 
 
 def _number(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:

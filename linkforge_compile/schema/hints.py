@@ -45,6 +45,8 @@ _RENAMED_KEYS = (
     ("a cylinder", "height", "length"),
     ("a material", "rgba", "color"),
     ("a joint", "child_link", "child"),
+    ("a joint", "parent_link", "parent"),
+    ("a joint", "limit", "limits"),
     ("a joint's limits", "min", "lower"),
     ("a joint's limits", "max", "upper"),
     ("a joint's limits", "torque force", "effort"),
