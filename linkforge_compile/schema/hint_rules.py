@@ -30,6 +30,7 @@ from linkforge_compile.schema.shapes import (
     shown,
     split_path,
 )
+from linkforge_compile.schema.srdf_habits import srdf_entry
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -259,10 +260,12 @@ def _entries_by_name(node: YamlList, mismatch: SchemaMismatch) -> Hint:
     """A list in place of a map keyed by names."""
     if not any(isinstance(branch.get("additionalProperties"), dict) for branch in branches(mismatch.schema)):
         return _NO_HINT
+    if mismatch.path[:-1] == ("semantic",) and (entry := srdf_entry(mismatch.field, node)):
+        return _change(f"each entry without '-', such as '{entry}'")
     first: YamlNode | None = next(iter(node), None)
     if isinstance(first, YamlMap):
         only_key = next(iter(first)).key if len(first) == 1 else None
-        first = first.get("group" if mismatch.field == "group_states" else "name") or only_key
+        first = first.get("name") or only_key
     name = first.text if isinstance(first, YamlScalar) else "NAME"
     return _change(f"each entry under its name, without '-': '{name}: …'")
 
@@ -288,7 +291,7 @@ def _axes(node: YamlMap, mismatch: SchemaMismatch) -> Hint:
 def _attribute(node: YamlMap, mismatch: SchemaMismatch) -> Hint:
     """An element of URDF with its only attribute, `{link: base}`."""
     only = next(iter(node)) if len(node) == 1 else None
-    if only is None or only.name not in ("link", "value", "name", "joint", "xyz", "rgba", "size"):
+    if only is None or only.name not in ("link", "value", "name", "joint", "xyz", "rgba", "size", "filename"):
         return _NO_HINT
     if isinstance(only.value, YamlScalar):
         numbers = numbers_in_row(only.value.text, list_lengths(mismatch.schema))

@@ -31,6 +31,8 @@ _KEYS = (
     ("a link", "pose xyz rpy", _JOINT_PLACES_LINK),
     ("an inertial", "com center_of_mass", "write 'origin: [x, y, z]', with 'inertia' about it"),
     ("a material", "rgba", "write 'color: [r, g, b, a]'"),
+    ("a ros2_control block", "hardware", "write 'hardware_plugin: PLUGIN', and each 'param' under 'parameters'"),
+    ("a gazebo block, a robot's gazebo block", "sensor", "declare it under 'sensors', or write it under 'properties'"),
     ("a gazebo block", "mu", "write 'mu1', and 'mu2' for the second direction"),
     ("a lidar's settings", "range", "write 'range_min', 'range_max' and 'range_resolution'"),
     ("a camera's settings", "image", "write 'width', 'height' and 'format'"),

@@ -145,6 +145,32 @@ class SceneView(TypedDict):
     panels: bool
 
 
+class SceneDifference(TypedDict):
+    """A difference from the robot before: what `linkforge diff` prints, and the link at which it is shown."""
+
+    kind: str
+    path: str
+    text: str
+    link: str | None
+    is_whole: bool
+
+
+class SceneComparison(TypedDict):
+    """The robot before, over which another one is shown.
+
+    `labels` are the names of both in headings. `kinds` has what happened to a link, by its name in the robot after,
+    or before for one that is gone. `links` and `joints` are new names by old ones. The files are with those of the
+    robot after.
+    """
+
+    before: Scene
+    labels: tuple[str, str]
+    differences: Sequence[SceneDifference]
+    kinds: Mapping[str, str]
+    links: Mapping[str, str]
+    joints: Mapping[str, str]
+
+
 class Scene(TypedDict):
     """All that the page draws; a joint comes after the joint above it, `files` are by digest.
 
@@ -160,6 +186,7 @@ class Scene(TypedDict):
     view: SceneView
     live: bool
     version: NotRequired[int]
+    comparison: NotRequired[SceneComparison]
 
 
 def make_scene(robot: Robot, files: RobotFiles, view: SceneView | None = None, *, is_live: bool = False) -> Scene:

@@ -117,12 +117,15 @@ class Layout:
 
     @cached_property
     def settings(self) -> Mapping[str | None, Settings]:
-        """The settings of Gazebo; sensors of a joint that is a frame are those of the link below it, at that frame."""
+        """The settings of Gazebo; sensors of a joint are those of the link below it, which has the frame of the joint.
+
+        Force-torque sensors stay. SDF allows all others in joints as well, but Gazebo Sim moves only those of links.
+        """
         settings = dict(self.own_settings)
         for joint in self.robot.joints:
             own = settings.get(joint.name, ())
             sensors = [one for one in own if one.tag == "sensor" and not any(frames_of_forces(one))]
-            if sensors and not self.is_joint(joint):
+            if sensors:
                 settings[joint.name] = [one for one in own if one not in sensors]
                 settings[joint.child] = [*settings.get(joint.child, ()), *sensors]
         return settings
