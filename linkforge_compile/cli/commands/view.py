@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _FORMATS_BY_ENDING = {".html": "html", ".htm": "html", ".png": "png"}
 
-LAYERS = ("visuals", "collisions", "frames", "axes", "centers", "inertias", "grid")
+LAYERS = ("visuals", "collisions", "frames", "axes", "centers", "inertias", "grid", "labels")
 """What the page can show, as in `view/page/src/state.ts`."""
 
 DEFAULT_SIZE = "1280x960"
@@ -77,14 +77,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=sorted(set(_FORMATS_BY_ENDING.values())),
         help="the form of an output with another ending, or of -o -",
     )
-    _add_first_view_options(parser)
+    _add_view_options(parser)
     _add_live_options(parser)
     add_spec_options(parser)
     add_report_options(parser)
 
 
-def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for how the robot is shown first."""
+def _add_view_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options about how the robot is shown first."""
     parser.add_argument(
         "--pose",
         metavar="GROUP/STATE",
@@ -196,7 +196,7 @@ def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
 
 def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
     """Print what is not shown, by reason, with the place of the first file of each."""
-    by_reason = defaultdict[str, list[MissingFile]](list)
+    by_reason: dict[str, list[MissingFile]] = defaultdict(list)
     for missing in files.missing:
         by_reason[missing.reason].append(missing)
     for reason, (first, *others) in by_reason.items():
