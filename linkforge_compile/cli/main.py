@@ -28,7 +28,7 @@ COMMANDS = {
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
-    "view": "show a robot: write a page that works offline, or a picture",
+    "view": "show a robot in the browser, live, or write a page or a picture of it",
     "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
