@@ -7,6 +7,8 @@ from base64 import b64encode
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkforge_compile.resources import view_page_file
+
 if TYPE_CHECKING:
     from linkforge_compile.view.files import RobotFiles
     from linkforge_compile.view.scene import Scene
@@ -28,11 +30,6 @@ class NoPageError(Exception):
     """The page of the viewer was not built."""
 
 
-def page_file() -> Path:
-    """Return the built page, which a wheel has, and a checkout after `npm run build`."""
-    return Path(__file__).parent / "page" / "out" / "view.html"
-
-
 def html_of(scene: Scene, files: RobotFiles | None) -> str:
     """Return the page with a scene and the content of files; for None, the page asks its server for them.
 
@@ -47,13 +44,13 @@ def html_of(scene: Scene, files: RobotFiles | None) -> str:
     policy = _POLICY.format("data: blob:" if files else "'self' data: blob:")
     before, place, after = _page().partition(_PLACE.format("null"))
     before = before.replace(_HEAD, f'{_HEAD}\n<meta http-equiv="Content-Security-Policy" content="{policy}">', 1)
-    assert place, f"{page_file()} has a place for the scene"
+    assert place, f"{view_page_file()} has a place for the scene"
     return f"{before}{_PLACE.format(text)}{after}"
 
 
 def _page() -> str:
     try:
-        return page_file().read_text("utf-8")
+        return view_page_file().read_text("utf-8")
     except FileNotFoundError as error:
-        way_out = f"run 'npm ci --ignore-scripts && npm run build' in {page_file().parents[1]}"
+        way_out = f"run 'npm ci --ignore-scripts && npm run build' in {Path(__file__).parent / 'page'}"
         raise NoPageError(f"the page of the viewer is not built; {way_out}") from error

@@ -34,7 +34,7 @@ def small_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     page = tmp_path / "page" / "out" / "view.html"
     page.parent.mkdir(parents=True)
     page.write_text(PAGE, "utf-8")
-    monkeypatch.setattr(html, "page_file", lambda: page)
+    monkeypatch.setattr(html, "view_page_file", lambda: page)
     return page
 
 
@@ -92,7 +92,7 @@ def test_a_page_from_disk_loads_nothing_and_a_live_one_asks_its_server():
 
 
 def test_a_page_that_is_not_built_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(html, "page_file", lambda: tmp_path / "page" / "out" / "view.html")
+    monkeypatch.setattr(html, "view_page_file", lambda: tmp_path / "page" / "out" / "view.html")
     robot, files = nasty_robot()
     with pytest.raises(NoPageError, match=r"not built; run 'npm ci --ignore-scripts && npm run build' in .*page$"):
         html_of(make_scene(robot, files), files)
