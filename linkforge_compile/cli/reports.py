@@ -200,14 +200,14 @@ def place_lines(what: str, place: Span) -> Iterator[str]:
 
 
 @contextmanager
-def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
-    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
+def progress_after(doing: str, arguments: argparse.Namespace) -> Iterator[None]:
+    """On a terminal, print what is being done if the body takes longer than PATIENCE: `reading robot.urdf`."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield
         return
     from threading import Timer
 
-    timer = Timer(PATIENCE, print_status, (f"still reading {file}; Ctrl-C ends it", arguments))
+    timer = Timer(PATIENCE, print_status, (f"still {doing}; Ctrl-C ends it", arguments))
     timer.daemon = True
     timer.start()
     try:
