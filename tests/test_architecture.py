@@ -57,11 +57,13 @@ MAY_IMPORT = {
         "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
         "export_spec overview editor roots paths resources formats lower compilation _version"
     ),
-    "view": ("source diagnostics checks formats core roots resources expand listing analysis pipeline file_watcher"),
+    "view": (
+        "source diagnostics checks formats core roots resources compare expand listing analysis pipeline file_watcher"
+    ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats formatter overview export_spec compare collisions view editor lsp resources file_watcher "
-        "_version"
+        "importing formats formatter overview export_spec compare collisions view editor lsp resources units "
+        "file_watcher _version"
     ),
 }
 

@@ -15,8 +15,8 @@ from linkforge_compile.cli.options import (
     compile_spec,
     require_one_spec,
     split_assignments,
-    states_of,
 )
+from linkforge_compile.cli.poses import positions_of
 from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
 from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.targets import file_to_write
@@ -46,6 +46,7 @@ on machines without a graphics card; LINKFORGE_BROWSER names one that is not fou
 examples:
   linkforge view arm.robot.yaml -o arm.html                     a page to open, to send, or to keep in CI
   linkforge view arm.robot.yaml -o arm.png --pose arm/home      a picture in state `home` of group `arm`
+  linkforge view arm.urdf -o arm.png --pose elbow=30deg         or with joints where the options have them
   linkforge view arm.robot.yaml -o arm.png --camera=-40,25      seen from 40 deg right of x, 25 deg above
   linkforge view arm.robot.yaml -o arm.png --show collisions,frames --size 800x600
   linkforge view arm.urdf.xacro -o arm.html reach:=0.7          any robot that `compile` accepts
@@ -70,21 +71,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=sorted(set(_FORMATS_BY_ENDING.values())),
         help="the form of an output with another ending, or of -o -",
     )
-    _add_view_options(parser)
+    _add_first_view_options(parser)
     add_spec_options(parser)
     add_report_options(parser)
 
 
-def _add_view_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options about how the robot is shown first."""
+def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options for how the robot is shown first."""
     parser.add_argument(
         "--pose",
-        metavar="GROUP/STATE",
+        metavar="STATE",
         dest="poses",
         action="append",
         default=[],
-        help="where the joints are: in a state of a group; once more for another group (default: at 0, or in the middle"
-        " of limits that exclude 0)",
+        help="where the joints are: in GROUP/STATE, or STATE of every group that has it, or JOINT=VALUE; once more for"
+        " others (default: at 0, or in the middle of limits that exclude 0)",
     )
     parser.add_argument(
         "--camera",
@@ -150,14 +151,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[Path | None, str]:
 def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
     """Return what the options say about how the robot is shown first."""
     view: SceneView = {"panels": True}
-    states = states_of(robot, arguments.poses).values()
-    if states:
-        view["pose"] = {
-            joint: float(values[0])
-            for state in states
-            for joint, values in state.joint_values.items()
-            if len(values) == 1 and isinstance(values[0], int | float)
-        }
+    if arguments.poses:
+        view["pose"] = positions_of(robot, arguments.poses)
     if arguments.camera:
         view["camera"] = arguments.camera
     if arguments.show:
@@ -179,13 +174,13 @@ def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
 def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Namespace) -> Content:
     """Return the page or the picture of a scene; UsageError if this machine cannot make it."""
     from linkforge_compile.view.html import NoPageError, html_of
-    from linkforge_compile.view.picture import PictureError, draw_picture, find_browser
+    from linkforge_compile.view.picture import WAIT, PictureError, draw_picture, find_browser
 
     try:
         if form == "html":
             return html_of(scene, files)
         browser = find_browser()
-        html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files)
+        html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files, last=WAIT)
         with progress_after(f"drawing with {Path(browser[0]).name}", arguments):
             return draw_picture(html, arguments.size, browser)
     except (NoPageError, PictureError) as error:
