@@ -6,6 +6,9 @@ from collections.abc import Collection
 from functools import cache
 from pathlib import Path
 
+OF_COMMANDS = ("init", "overview")
+"""The folders of templates for commands other than `compile`."""
+
 
 @cache
 def data_folder() -> Path:
@@ -27,10 +30,10 @@ def templates_folder() -> Path:
 
 
 def format_templates(formats: Collection[str] = ()) -> list[Path]:
-    """Return the templates of formats, sorted, those of all for none: all but those of `linkforge init`."""
+    """Return the templates of formats, sorted, those of all for none: all but those of other commands."""
     folder = templates_folder()
     by_format = ((path.relative_to(folder).parts[0], path) for path in sorted(folder.rglob("*.j2")))
-    return [path for name, path in by_format if (name in formats if formats else name != "init")]
+    return [path for name, path in by_format if (name in formats if formats else name not in OF_COMMANDS)]
 
 
 def compiled_templates_folder() -> Path:
@@ -46,6 +49,12 @@ def compiler_files(formats: Collection[str] = ()) -> tuple[Path, ...]:
 def manual_folder() -> Path:
     """Return the folder with a page for each diagnostic code, such as LF4102.md."""
     return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"
+
+
+def view_page_file() -> Path:
+    """Return the page of the viewer; a checkout has one once npm has built it."""
+    name = "view.html"
+    return _packed() / name if _packed().is_dir() else Path(__file__).parent / "view" / "page" / "out" / name
 
 
 def matcher_file() -> Path:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TextIO, TypeVar
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics import Code, Diagnostic, Severity
 from linkforge_compile.diagnostics.codes import OUTPUT_CODES
+from linkforge_compile.diagnostics.terminal import BOLD, CYAN, RESET
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -31,8 +32,6 @@ ANY_CODE = "LF"
 """How all codes begin."""
 
 _Item = TypeVar("_Item")
-
-_BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
 
 
 def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
@@ -201,14 +200,14 @@ def place_lines(what: str, place: Span) -> Iterator[str]:
 
 
 @contextmanager
-def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
-    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
+def progress_after(doing: str, arguments: argparse.Namespace) -> Iterator[None]:
+    """On a terminal, print what is being done if the body takes longer than PATIENCE: `reading robot.urdf`."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield
         return
     from threading import Timer
 
-    timer = Timer(PATIENCE, print_status, (f"still reading {file}; Ctrl-C ends it", arguments))
+    timer = Timer(PATIENCE, print_status, (f"still {doing}; Ctrl-C ends it", arguments))
     timer.daemon = True
     timer.start()
     try:
@@ -303,8 +302,8 @@ def _styled(text: str) -> Iterator[str]:
             if file:
                 yield f"{file}:"
         elif is_example:
-            yield f"    {_CYAN}{line}{_RESET}" if line else ""
+            yield f"    {CYAN}{line}{RESET}" if line else ""
         elif line.startswith("#"):
-            yield f"{_BOLD}{line.lstrip('#').lstrip()}{_RESET}"
+            yield f"{BOLD}{line.lstrip('#').lstrip()}{RESET}"
         else:
-            yield re.sub(r"`([^`]+)`", rf"{_CYAN}\1{_RESET}", line)
+            yield re.sub(r"`([^`]+)`", rf"{CYAN}\1{RESET}", line)
