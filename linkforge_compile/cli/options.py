@@ -20,8 +20,6 @@ from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.analysis import Settings
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf import GroupState
     from linkforge_compile.formats import Format
     from linkforge_compile.pipeline import Compilation
 
@@ -263,18 +261,6 @@ def settings_of(assignments: list[str], arguments: argparse.Namespace) -> Settin
         format_options_of(arguments),
         allow_outside=arguments.allow_outside,
     )
-
-
-def states_of(robot: Robot, poses: Iterable[str]) -> dict[str, GroupState]:
-    """Return the states of groups that `--pose` names by GROUP/STATE; UsageError for an unknown one."""
-    from linkforge_compile.diagnostics.grouping import join_names
-    from linkforge_compile.diagnostics.suggest import did_you_mean
-
-    known = {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
-    if unknown := next((pose for pose in poses if pose not in known), None):
-        hint = did_you_mean(unknown, known) or (f"; there are {join_names(known)}" if known else "")
-        raise UsageError(f"--pose takes GROUP/STATE; the robot has no state '{unknown}'{hint}")
-    return {pose: known[pose] for pose in poses}
 
 
 def read_stdin() -> str:

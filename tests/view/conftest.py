@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.view.html import page_file
+from linkforge_compile.resources import view_page_file
 from linkforge_compile.view.picture import PictureError, find_browser
 from tests.npm import installed_modules
 from tests.programs import program
@@ -16,13 +16,13 @@ from tests.programs import program
 @pytest.fixture(scope="session")
 def page() -> Path:
     """Return the file of the page, built from what is in the checkout."""
-    project = page_file().parents[1]
+    project = view_page_file().parents[1]
     modules = project / "node_modules"
     if not modules.exists():
         modules.unlink(missing_ok=True)
         modules.symlink_to(installed_modules(project))
     subprocess.run([program("node"), "build.mjs"], cwd=project, check=True, timeout=60)
-    return page_file()
+    return view_page_file()
 
 
 @pytest.fixture(scope="session")

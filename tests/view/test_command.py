@@ -9,8 +9,9 @@ import pytest
 
 from linkforge_compile.cli.commands.view import LAYERS
 from linkforge_compile.view import html, picture
-from linkforge_compile.view.html import page_file
 from tests.cli.in_process import linkforge
+
+PAGE = Path(html.__file__).parent / "page"
 
 SPEC = """\
 linkforge: 1
@@ -33,8 +34,10 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with a spec; the page is one of a few lines."""
     page = tmp_path / "page" / "out" / "view.html"
     page.parent.mkdir(parents=True)
-    page.write_text('<head></head><body><script id="scene" type="application/json">null</script></body>', "utf-8")
-    monkeypatch.setattr(html, "page_file", lambda: page)
+    page.write_text(
+        '<head></head><body><script id="scene" type="application/json">null</script></body>\n</html>', "utf-8"
+    )
+    monkeypatch.setattr(html, "view_page_file", lambda: page)
     (tmp_path / "arm.robot.yaml").write_text(SPEC, "utf-8")
     return tmp_path
 
@@ -77,12 +80,34 @@ def test_a_spec_with_errors_writes_nothing(arm: Path):
 
 
 @pytest.mark.parametrize(
+    ("poses", "position"),
+    [
+        (("arm/out",), 1),
+        (("home",), 0.5),
+        (("bend=0.25",), 0.25),
+        (("bend=-90 deg",), -1.5707963267948966),
+        (("out", "bend=90deg"), 1.5707963267948966),
+        (("bend=90deg", "out"), 1),
+    ],
+)
+def test_a_pose_is_a_state_or_a_position(arm: Path, poses: tuple[str, ...], position: float):
+    words = [word for pose in poses for word in ("--pose", pose)]
+    assert linkforge("view", "arm.robot.yaml", "-o", "a.html", *words, cwd=arm).returncode == 0
+    assert scene_in(arm / "a.html")["view"]["pose"] == {"bend": pytest.approx(position)}
+
+
+@pytest.mark.parametrize(
     ("words", "reason"),
     [
         ((), "-o FILE.html for a page, or -o FILE.png"),
         (("-o", "arm.svg"), "ends in .html or .png, found 'arm.svg'"),
         (("-o", "a.html", "-o", "a.html"), "is given twice"),
         (("-o", "a.html", "--pose", "arm/hom"), "no state 'arm/hom'; did you mean 'arm/home'?"),
+        (("-o", "a.html", "--pose", "hom"), "no state 'hom'; did you mean 'home'?"),
+        (("-o", "a.html", "--pose", "bned=1"), "'bned' is not a joint of the robot; did you mean 'bend'?"),
+        (("-o", "a.html", "--pose", "bend=3"), "--pose bend=3: 'bend' is from -2 to 2 rad"),
+        (("-o", "a.html", "--pose", "bend=1 m"), "takes a number in rad, or with its unit, found '1 m'"),
+        (("-o", "a.html", "--pose", "bend=up"), "takes a number in rad, or with its unit, found 'up'"),
         (("-o", "a.html", "--camera", "1"), "takes AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres, found '1'"),
         (("-o", "a.html", "--camera", "1,nan"), "found '1,nan'"),
         (("-o", "a.html", "--camera", "1,91"), "from -90 to 90"),
@@ -137,6 +162,6 @@ def test_a_picture_has_the_size_that_is_asked_for(page: Path, browser: object, t
 
 
 def test_the_layers_are_those_of_the_page():
-    text = (page_file().parents[1] / "src" / "state.ts").read_text("utf-8")
+    text = (PAGE / "src" / "state.ts").read_text("utf-8")
     (layers,) = re.findall(r"LAYERS = \[(.*?)\]", text)
     assert tuple(re.findall(r'"(\w+)"', layers)) == LAYERS

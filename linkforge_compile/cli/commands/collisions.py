@@ -16,8 +16,8 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     settings_of,
     split_assignments,
-    states_of,
 )
+from linkforge_compile.cli.poses import states_of
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 from linkforge_compile.cli.specs import FoundSpecs, SpecReport, count, find_parts, find_specs_of
 from linkforge_compile.source.characters import on_one_line
@@ -80,7 +80,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="poses",
         action="append",
         default=[],
-        help="print what collides in a state of a group, without sampling; once more for another one",
+        help="print what collides in a state of a group, or in STATE of every group that has it, without sampling; once"
+        " more for another one",
     )
     add_spec_options(parser)
     add_report_options(parser)
@@ -149,7 +150,7 @@ def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespac
     if compilation.robot is None:
         report(compilation.diagnostics, arguments)
         return FAULTY_SPEC
-    states, sink = states_of(compilation.robot, arguments.poses), Diagnostics()
+    states, sink = states_of(compilation.robot, arguments.poses, "GROUP/STATE"), Diagnostics()
     found = find_collisions(compilation.robot, states.values(), sink)
     if report((*compilation.diagnostics, *group_alike(sink.sorted())), arguments):
         return FAULTY_SPEC
