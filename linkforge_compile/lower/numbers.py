@@ -56,8 +56,8 @@ _WIDEST_URDF_ANGLE, _UNLIMITED_URDF_ANGLE = 8 * math.pi, 1e4
 """Angles of URDF files [rad] between these are suspicious; vendors write limits of 10, and of 1e16 for none."""
 
 _ANGLE, _LENGTH = (Dimension.ANGLE,), (Dimension.LENGTH,)
-_LARGEST_PLAUSIBLE: dict[tuple[Dimension, ...], float] = {_ANGLE: WIDEST_ANGLE, _LENGTH: 100.0}
-"""Larger numbers [rad], [m] are probably degrees or millimetres."""
+_LARGEST_PLAUSIBLE: dict[tuple[Dimension, ...], float] = {_ANGLE: WIDEST_ANGLE, _LENGTH: 30.0}
+"""Larger numbers [rad], [m] are probably degrees or millimetres; the track of a published cart is 30 m long."""
 
 _UNLIMITED_LENGTH, _NO_LIMIT = 1e5, (9_999.0, 99_999.0)
 """A length [m] that even in millimetres is none of a robot's, and others that vendors write where there is no limit."""
@@ -66,7 +66,7 @@ _UNLIMITED_LENGTH, _NO_LIMIT = 1e5, (9_999.0, 99_999.0)
 class NumberType:
     """The numbers that a field accepts: bare ones, and quantities of one of `dimensions`.
 
-    A length of more than 100 m is suspicious, unless it `may_be_far`. Bare numbers from `least` to `most` are in the
+    A length of more than 30 m is suspicious, unless it `may_be_far`. Bare numbers from `least` to `most` are in the
     bound and not suspicious.
     """
 

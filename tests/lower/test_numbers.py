@@ -85,7 +85,8 @@ def test_an_unknown_unit_is_compared_with_the_units_of_the_field():
         ("720 deg", 4 * math.pi, ANGLE, None),
         (800, 800.0, LENGTH, LONG_LENGTH),
         ("800 m", 800.0, LENGTH, LONG_LENGTH),
-        (100, 100.0, LENGTH, None),
+        (40, 40.0, LENGTH, LONG_LENGTH),
+        (30, 30.0, LENGTH, None),
         (800, 800.0, MASS, None),
     ],
 )
