@@ -8,19 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.resources import view_page_file
+from linkforge_compile.view.policy import content_security_policy
 
 if TYPE_CHECKING:
     from linkforge_compile.view.files import RobotFiles
     from linkforge_compile.view.scene import Scene
 
 _PLACE = '<script id="scene" type="application/json">{}</script>'
-_HEAD = "<head>"
-
-_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src {0}; connect-src {0}; "
-    "base-uri 'none'; form-action 'none'"
-)
-"""What the page may load; a mesh can name textures on any machine."""
+_HEAD, _END = "<head>", "</body>\n</html>"
 
 # In a script, `</script>` ends it and `<!--` begins a comment.
 _ESCAPES = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})
@@ -30,20 +25,24 @@ class NoPageError(Exception):
     """The page of the viewer was not built."""
 
 
-def html_of(scene: Scene, files: RobotFiles | None) -> str:
+def html_of(scene: Scene, files: RobotFiles | None, *, last: str = "") -> str:
     """Return the page with a scene and the content of files; for None, the page asks its server for them.
+
+    `last` is an element at the end of the page.
 
     Raises:
         NoPageError: The page was not built.
 
     """
+    page = _page().replace(_END, f"{last}{_END}")
     if files:
+        # A server sends the policy as a header.
+        policy = content_security_policy(page, has_server=False)
+        page = page.replace(_HEAD, f'{_HEAD}\n<meta http-equiv="Content-Security-Policy" content="{policy}">', 1)
         content = {digest: b64encode(file.content).decode() for digest, file in files.files.items()}
         scene = {**scene, "files": {digest: {**one, "data": content[digest]} for digest, one in scene["files"].items()}}
     text = json.dumps(scene, separators=(",", ":")).translate(_ESCAPES)
-    policy = _POLICY.format("data: blob:" if files else "'self' data: blob:")
-    before, place, after = _page().partition(_PLACE.format("null"))
-    before = before.replace(_HEAD, f'{_HEAD}\n<meta http-equiv="Content-Security-Policy" content="{policy}">', 1)
+    before, place, after = page.partition(_PLACE.format("null"))
     assert place, f"{view_page_file()} has a place for the scene"
     return f"{before}{_PLACE.format(text)}{after}"
 

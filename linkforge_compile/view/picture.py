@@ -53,8 +53,7 @@ _OPTIONS = (
 
 _DONE, _FAILED = "linkforge: drawn", "linkforge: failed: "
 
-# The browser takes the picture once the page is loaded, which an open document inside of it delays.
-_WAIT = f"""<script>
+WAIT = f"""<script>
 (() => {{
   const inner = document.createElement("iframe");
   inner.hidden = true;
@@ -70,6 +69,8 @@ _WAIT = f"""<script>
 }})();
 </script>
 """
+"""The end of a page of which a picture is drawn: a browser draws it once the page is loaded, which an open document
+inside of the page delays until the robot is drawn."""
 
 _MESSAGE = re.compile(r':CONSOLE[:(\d)]*\] "(.*)", source: ')
 
@@ -115,7 +116,7 @@ def _usual_places() -> Iterator[str]:
 
 
 def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: float = TIME_LIMIT) -> bytes:
-    """Return a PNG of a page that `html_of` made, once all that it shows is loaded.
+    """Return a PNG of a page that ends with WAIT, once all that it shows is loaded.
 
     Raises:
         PictureError: The browser cannot draw it, or not within the time limit [s].
@@ -124,8 +125,7 @@ def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: floa
     with TemporaryDirectory(prefix="linkforge-", dir=_folder_for(browser), ignore_cleanup_errors=True) as name:
         folder = Path(name)
         page, picture, log = folder / "page.html", folder / "picture.png", folder / "log.txt"
-        before, end, after = html.rpartition("</body>")
-        page.write_text(f"{before}{_WAIT}{end}{after}", "utf-8")
+        page.write_text(html, "utf-8")
         options = (f"--user-data-dir={folder / 'profile'}", f"--window-size={size.width},{size.height}")
         command = [*browser, *_OPTIONS, *_sandbox(), *options, f"--screenshot={picture}", page.as_uri()]
         _run(command, log, time_limit)

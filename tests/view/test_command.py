@@ -34,7 +34,9 @@ def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with a spec; the page is one of a few lines."""
     page = tmp_path / "page" / "out" / "view.html"
     page.parent.mkdir(parents=True)
-    page.write_text('<head></head><body><script id="scene" type="application/json">null</script></body>', "utf-8")
+    page.write_text(
+        '<head></head><body><script id="scene" type="application/json">null</script></body>\n</html>', "utf-8"
+    )
     monkeypatch.setattr(html, "view_page_file", lambda: page)
     (tmp_path / "arm.robot.yaml").write_text(SPEC, "utf-8")
     return tmp_path

@@ -78,17 +78,21 @@ def test_no_name_ends_the_script():
 
 
 @pytest.mark.usefixtures("small_page")
-def test_a_page_from_disk_loads_nothing_and_a_live_one_asks_its_server():
+def test_a_page_from_disk_runs_its_own_scripts_and_loads_nothing():
     robot, files = nasty_robot()
-    scene = make_scene(robot, files, is_live=True)
-    policies = [
-        re.findall(r'http-equiv="Content-Security-Policy" content="(.*?)"', html_of(scene, of))[0]
-        for of in (files, None)
-    ]
-    assert "default-src 'none'" in policies[0]
-    assert "'self'" not in policies[0]
-    assert "connect-src 'self' data: blob:" in policies[1]
-    assert '"data"' not in html_of(scene, None)
+    scene = make_scene(robot, files)
+    text = html_of(scene, files, last="<script>end()</script>")
+    (policy,) = re.findall(r'http-equiv="Content-Security-Policy" content="(.*?)"', text)
+    # echo -n 'start()' | openssl dgst -sha256 -binary | base64, and the same of 'end()'
+    hashes = (
+        "'sha256-DIm7WJS6ZKDYe5qFLPy+h4JFI9Bol5QmYC57mt3Fb00=' 'sha256-2VOP+ZDnztWSWeD2tqXN/Gm8M2oWchEgb497RXO7xjQ='"
+    )
+    assert policy.startswith(f"default-src 'none'; script-src {hashes}; ")
+    assert "'self'" not in policy
+    assert text.endswith("<script>end()</script></body>\n</html>\n")
+    live = html_of(scene, None)
+    assert '"data"' not in live
+    assert "Content-Security-Policy" not in live, "the server sends it"
 
 
 def test_a_page_that_is_not_built_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

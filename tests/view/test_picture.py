@@ -15,7 +15,7 @@ from linkforge_compile import compile_text
 from linkforge_compile.view import picture
 from linkforge_compile.view.files import collect_files
 from linkforge_compile.view.html import html_of
-from linkforge_compile.view.picture import PictureError, Size, draw_picture, find_browser
+from linkforge_compile.view.picture import WAIT, PictureError, Size, draw_picture, find_browser
 from linkforge_compile.view.scene import SceneView, make_scene
 
 Image = pytest.importorskip("PIL.Image")
@@ -41,11 +41,11 @@ BOXES = BOXES.replace("links:\n", "links:\n  arm: {}\n")
 def page_of(page: Path):
     """Return a function from the view of the boxes to their page."""
 
-    def made(**view: object) -> str:
+    def made(last: str = WAIT, **view: object) -> str:
         robot = compile_text(BOXES).result()
         files = collect_files(robot)
         whole: SceneView = {"panels": False, "camera": {"azimuth": 0, "elevation": 0}, "layers": ["visuals"], **view}
-        return html_of(make_scene(robot, files, whole), files)
+        return html_of(make_scene(robot, files, whole), files, last=last)
 
     return made
 
@@ -105,25 +105,28 @@ def test_a_page_asks_no_other_machine(page_of, browser: Sequence[str], monkeypat
     monkeypatch.setattr(picture, "_OPTIONS", tuple(one for one in picture._OPTIONS if "resolver" not in one))
     url = f"http://127.0.0.1:{server.server_port}"
     ask = f"<script>fetch('{url}/fetch').catch(() => 0); new Image().src = '{url}/image'</script><img src={url}/img>"
-    html = page_of().replace("</body>", f"{ask}</body>")
+    # As if the page itself asked, so that the policy lets its script run.
+    html = page_of(last=f"{ask}{WAIT}")
+    # A script that a name of the robot brings does not run.
+    html = html.replace(WAIT, f"{WAIT}<script>document.write('<img src={url}/script>')</script><b onclick=x>")
     draw_picture(html, SIZE, browser)
     assert server.paths == []
     draw_picture(html.replace("Content-Security-Policy", "X"), SIZE, browser)
     server.shutdown()
     server.server_close()
-    assert {"/fetch", "/image", "/img"} <= set(server.paths)
+    assert {"/fetch", "/image", "/img", "/script"} <= set(server.paths)
 
 
 def test_a_fault_of_the_page_is_the_reason(browser: Sequence[str]):
-    html = "<html><body><script>linkforge = {ready: Promise.reject(Error('a mesh is broken'))}</script></body></html>"
+    html = "<script>linkforge = {ready: Promise.reject(Error('a mesh is broken'))}</script>"
     with pytest.raises(PictureError, match="drew no picture: Error: a mesh is broken"):
-        draw_picture(html, SIZE, browser)
+        draw_picture(f"<html><body>{html}{WAIT}</body></html>", SIZE, browser)
     with pytest.raises(PictureError, match="the page did not start"):
-        draw_picture("<html><body></body></html>", SIZE, browser)
+        draw_picture(f"<html><body>{WAIT}</body></html>", SIZE, browser)
 
 
 def test_a_page_that_is_never_ready_has_a_time_limit(browser: Sequence[str]):
-    html = "<html><body><script>linkforge = {ready: new Promise(() => 0)}</script></body></html>"
+    html = f"<html><body><script>linkforge = {{ready: new Promise(() => 0)}}</script>{WAIT}</body></html>"
     with pytest.raises(PictureError, match="did not draw the picture within 8 s"):
         draw_picture(html, SIZE, browser, time_limit=8)
 

@@ -203,13 +203,13 @@ def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
 def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Namespace) -> Content:
     """Return the page or the picture of a scene; UsageError if this machine cannot make it."""
     from linkforge_compile.view.html import NoPageError, html_of
-    from linkforge_compile.view.picture import PictureError, draw_picture, find_browser
+    from linkforge_compile.view.picture import WAIT, PictureError, draw_picture, find_browser
 
     try:
         if form == "html":
             return html_of(scene, files)
         browser = find_browser()
-        html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files)
+        html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files, last=WAIT)
         with progress_after(f"drawing with {Path(browser[0]).name}", arguments):
             return draw_picture(html, arguments.size, browser)
     except (NoPageError, PictureError) as error:
