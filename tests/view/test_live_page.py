@@ -117,6 +117,15 @@ def test_faults_are_shown_over_the_last_robot_until_they_are_corrected(tab: Page
     expect(problems).to_be_hidden()
 
 
+def test_texts_of_a_spec_are_no_elements_of_the_page(tab: Page, spec: Path):
+    element = "<img src=x onerror=document.title=1>"
+    spec.write_text(f"{SPEC.replace('default: 1 m', f'description: {element}, default: 1 m')}  '{element}': {{}}\n")
+    expect(tab.locator(".problems")).to_contain_text(element)
+    expect(tab.locator("[data-parameter=reach]")).to_be_visible()
+    assert tab.locator("img").count() == 0
+    assert tab.title() == "arm"
+
+
 def test_a_parameter_changes_the_robot_in_all_tabs(tab: Page, viewer: Viewer):
     other = tab.context.browser.new_page()
     open_viewer(other, viewer)
