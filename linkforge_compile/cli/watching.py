@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
@@ -44,6 +45,8 @@ def repeat_on_changes(command: str, run: Callable[[], Watched], arguments: argpa
     """
     watched = run()
     while True:
+        # The command's thresholds are those of a short process: the robots of former runs would add up.
+        gc.collect()
         print_status(f"watching {_listed(watched.files)}; Ctrl-C ends", arguments)
         changed, gone = _wait(watched)
         if changed:

@@ -1,6 +1,7 @@
 """`linkforge watch`: it compiles again after each change, and reports what went wrong."""
 
 import argparse
+import gc
 import os
 import signal
 import subprocess
@@ -15,6 +16,7 @@ from linkforge_compile import Compilation
 from linkforge_compile.cli.build import BuildRequest
 from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
+from linkforge_compile.syntax import YamlMap
 from tests.cli.watching import Deed, nothing, removes, run_with, sets
 
 CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
@@ -60,6 +62,20 @@ def test_errors_are_reported_and_the_output_stays_until_they_are_fixed(cell: Pat
     output = watch(sets("arm.robot.yaml", wrong), is_still_there, sets("arm.robot.yaml", ARM))
     assert "arm.robot.yaml:3:16: error: 'colision' is not a key of a link; did you mean 'collision'? [LF2101]" in output
     assert output[-2:] == ["out/cell.urdf is up to date", WATCHING]
+
+
+def test_nothing_of_former_compiles_is_kept(watch: Callable[..., list[str]]):
+    def count(_folder: Path) -> None:
+        counts.append(sum(isinstance(one, YamlMap) for one in gc.get_objects()))
+
+    counts: list[int] = []
+    edits = [sets("arm.robot.yaml", ARM.replace("hand", f"hand{number}")) for number in range(3)]
+    gc.disable()  # as if no threshold were reached
+    try:
+        watch(edits[0], count, edits[1], edits[2], count)
+    finally:
+        gc.enable()
+    assert counts[1] == counts[0]
 
 
 def test_a_file_that_is_missed_is_waited_for(watch: Callable[..., list[str]]):

@@ -2,12 +2,17 @@
 
 import json
 import socket
+import sys
 import urllib.request
+import webbrowser
 from collections.abc import Iterator
 from pathlib import Path
+from queue import Queue
+from urllib.parse import urlsplit
 
 import pytest
 
+from linkforge_compile.view.session import Session
 from tests.cli.in_process import linkforge
 from tests.view.viewer import Viewer
 
@@ -66,6 +71,44 @@ def test_a_spec_with_errors_is_served_without_a_robot(folder: Path):
         assert '"links":[]' in answer.read().decode()
     assert viewer.interrupt() == 130
     viewer.close()
+
+
+@pytest.mark.parametrize(
+    ("words", "environment", "is_opened"),
+    [
+        ((), {"DISPLAY": ":0"}, True),
+        ((), {"WAYLAND_DISPLAY": "wayland-0"}, True),
+        ((), {"BROWSER": "firefox"}, True),
+        ((), {}, False),
+        (("--no-browser",), {"DISPLAY": ":0"}, False),
+    ],
+)
+@pytest.mark.skipif(sys.platform in {"win32", "darwin"}, reason="they always have windows")
+def test_the_browser_is_opened_where_it_has_a_window(
+    words: tuple[str, ...],
+    environment: dict[str, str],
+    is_opened: bool,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+):
+    for name in ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY", "WSL_DISTRO_NAME"):
+        monkeypatch.delenv(name, raising=False)
+    opened = Queue[str]()
+    monkeypatch.setattr(webbrowser, "open", opened.put)
+    monkeypatch.setattr(Session, "pause", _interrupt)
+    result = linkforge(
+        "view", "arm.robot.yaml", *words, cwd=folder, SSH_CONNECTION="10.0.0.1 5 10.0.0.2 22", **environment
+    )
+    assert result.returncode == 130
+    url = result.stdout.strip()
+    assert ([opened.get(timeout=20)] if is_opened else []) == ([url] if is_opened else [])
+    assert opened.empty()
+    port = urlsplit(url).port
+    assert f"over ssh, first run on your machine: ssh -L {port}:127.0.0.1:{port} 10.0.0.2\n" in result.stderr
+
+
+def _interrupt(_session: Session, _seconds: float) -> None:
+    raise KeyboardInterrupt
 
 
 def test_a_missing_spec_is_the_usual_error(folder: Path):
