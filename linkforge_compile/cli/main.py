@@ -29,6 +29,7 @@ COMMANDS = {
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
     "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
+    "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
     "view": "show a robot: write a page that works offline, or a picture",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
