@@ -39,7 +39,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
-    "overview": "source diagnostics units core checks formats roots resources",
+    "overview": "source diagnostics units core listing checks formats roots resources",
     "export_spec": "source diagnostics units syntax core expand listing",
     "compare": "source units core formats",
     "collisions": "source diagnostics syntax core checks roots",

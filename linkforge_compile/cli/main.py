@@ -30,6 +30,7 @@ COMMANDS = {
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
     "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
     "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
+    "info": "print the figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
     "view": "show a robot: write a page that works offline, or a picture",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
