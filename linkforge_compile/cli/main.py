@@ -31,7 +31,7 @@ COMMANDS = {
     "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
     "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
     "info": "print the figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
-    "view": "show a robot: write a page that works offline, or a picture",
+    "view": "show a robot in the browser, live, or write a page or a picture of it",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
     "collisions": "find the pairs of links that need no check for collisions, by sampling",

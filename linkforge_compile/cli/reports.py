@@ -20,6 +20,7 @@ from linkforge_compile.source.characters import on_one_line
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.diagnostics.reports import Selection
     from linkforge_compile.source import Span
 
 PATIENCE = 3.0
@@ -86,10 +87,14 @@ def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
     diagnostics = tuple(diagnostics)
     if not diagnostics:
         return ()
+    return selection_of(arguments).of(diagnostics)
+
+
+def selection_of(arguments: argparse.Namespace) -> Selection:
+    """Return which diagnostics the options select."""
     from linkforge_compile.diagnostics.reports import Selection
 
-    selection = Selection(tuple(arguments.select), tuple(arguments.ignore), tuple(arguments.errors), arguments.quiet)
-    return selection.of(diagnostics)
+    return Selection(tuple(arguments.select), tuple(arguments.ignore), tuple(arguments.errors), arguments.quiet)
 
 
 def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:

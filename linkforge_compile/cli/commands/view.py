@@ -1,4 +1,4 @@
-"""`linkforge view`: a robot as a page that works offline, or as a picture."""
+"""`linkforge view`: a robot in the browser, as a page that works offline, or as a picture."""
 
 from __future__ import annotations
 
@@ -38,12 +38,19 @@ DEFAULT_SIZE = "1280x960"
 MAX_SIDE = 8192
 """The widest and highest picture that browsers draw [pixels]."""
 
+MAX_PORT = 65535
+
 _EXAMPLES = """\
-The page has the meshes inside, and a browser shows it without a network: the robot to turn, its joints to move, its
-frames, axes, masses and collisions to look at. A picture is drawn by Chrome, Chromium or Edge without a window, also
-on machines without a graphics card; LINKFORGE_BROWSER names one that is not found.
+Without -o, it opens the robot in the browser, and shows each change of the spec and of its parameters until Ctrl-C; the
+faults of a spec are shown over its last robot without errors. docs/view.md says how to look from another machine.
+
+With -o, it writes a file. The page has the meshes inside, and a browser shows it without a network: the robot to turn,
+its joints to move, its frames, axes, masses and collisions to look at. A picture is drawn by Chrome, Chromium or Edge
+without a window, also on machines without a graphics card; LINKFORGE_BROWSER names one that is not found.
 
 examples:
+  linkforge view arm.robot.yaml                                 in the browser, live
+  linkforge view arm.robot.yaml --no-browser --port 8123        print the address only
   linkforge view arm.robot.yaml -o arm.html                     a page to open, to send, or to keep in CI
   linkforge view arm.robot.yaml -o arm.png --pose arm/home      a picture in state `home` of group `arm`
   linkforge view arm.urdf -o arm.png --pose elbow=30deg         or with joints where the options have them
@@ -54,7 +61,7 @@ examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge view [options] SPEC -o FILE [NAME:=VALUE ...]"
+    parser.usage = "linkforge view [options] SPEC [-o FILE] [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
     parser.add_argument(
@@ -64,7 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="outputs",
         action="append",
         default=[],
-        help="the page, FILE.html, or the picture, FILE.png; once more for the other one",
+        help="write the page, FILE.html, or the picture, FILE.png, and open no browser; once more for the other one",
     )
     parser.add_argument(
         "--format",
@@ -72,6 +79,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the form of an output with another ending, or of -o -",
     )
     _add_first_view_options(parser)
+    _add_live_options(parser)
     add_spec_options(parser)
     add_report_options(parser)
 
@@ -109,9 +117,19 @@ def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_live_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the page that a server shows."""
+    parser.add_argument(
+        "--port", metavar="N", type=_port, help="serve the page at this port of 127.0.0.1 (default: any free one)"
+    )
+    parser.add_argument("--no-browser", action="store_true", help="print the address of the page, and open no browser")
+
+
 def run(arguments: argparse.Namespace) -> int:
     specs, assignments = split_assignments(arguments.words)
     spec = require_one_spec(specs)
+    if not arguments.outputs:
+        return _view_live(spec, assignments, arguments)
     outputs = _outputs(arguments)
     compilation = compile_spec(spec, assignments, arguments)
     if report(compilation.diagnostics, arguments) or compilation.robot is None:
@@ -132,10 +150,21 @@ def run(arguments: argparse.Namespace) -> int:
     return OK
 
 
+def _view_live(spec: str, assignments: list[str], arguments: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    if arguments.format or arguments.size != _size(DEFAULT_SIZE):
+        option = "--format" if arguments.format else "--size"
+        raise UsageError(f"{option} is about a file; add -o FILE.html for a page, or -o FILE.png for a picture")
+    from linkforge_compile.cli.live_view import view_live
+
+    return view_live(spec, assignments, lambda robot: _view(robot, arguments), arguments)
+
+
 def _outputs(arguments: argparse.Namespace) -> dict[Path | None, str]:
     """Return the format of each output, None for standard output."""
-    if not arguments.outputs:
-        raise UsageError("takes an output: -o FILE.html for a page, or -o FILE.png for a picture")
+    if arguments.port is not None or arguments.no_browser:
+        option = "--port" if arguments.port is not None else "--no-browser"
+        raise UsageError(f"{option} is about the page in a browser, which -o does not open")
     outputs: dict[Path | None, str] = {}
     for word in arguments.outputs:
         path = file_to_write(word)
@@ -185,6 +214,12 @@ def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Nam
             return draw_picture(html, arguments.size, browser)
     except (NoPageError, PictureError) as error:
         raise UsageError(str(error)) from error
+
+
+def _port(text: str) -> int:
+    if not (text.isascii() and text.isdecimal()) or len(text) > 5 or int(text) > MAX_PORT:
+        raise argparse.ArgumentTypeError(f"takes a port from 0, any free one, to {MAX_PORT}, found '{text[:40]}'")
+    return int(text)
 
 
 def _camera(text: str) -> SceneCamera:
