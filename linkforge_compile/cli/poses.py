@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.diagnostics.suggest import did_you_mean
+from linkforge_compile.formats.groups import actuated_joints
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
@@ -16,12 +17,17 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import GroupState
 
 
+def states_by_name(robot: Robot) -> dict[str, GroupState]:
+    """Return the states of all groups by GROUP/STATE."""
+    return {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
+
+
 def states_of(robot: Robot, poses: Iterable[str], accepted: str) -> dict[str, GroupState]:
     """Return the states that `--pose` names, by GROUP/STATE; a STATE alone is that of every group that has it.
 
     `accepted` are the forms of the option, for the message of the UsageError about an unknown state.
     """
-    known = {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
+    known = states_by_name(robot)
     found: dict[str, GroupState] = {}
     for pose in poses:
         named = {name: state for name, state in known.items() if pose in {name, state.name}}
@@ -55,10 +61,13 @@ def _single_positions(state: GroupState) -> Iterator[tuple[str, float]]:
             yield joint, float(values[0])
 
 
-def _joint(robot: Robot, name: str) -> Joint:
-    from linkforge_compile.core.models.joint import SINGLE_AXIS
+def movable_joints(robot: Robot) -> dict[str, Joint]:
+    """Return the joints with one position of their own, by name."""
+    return {joint.name: joint for joint in actuated_joints(robot)}
 
-    movable = {joint.name: joint for joint in robot.joints if joint.type in SINGLE_AXIS and not joint.mimic}
+
+def _joint(robot: Robot, name: str) -> Joint:
+    movable = movable_joints(robot)
     if name not in movable:
         why = "has no position of its own" if robot.has_joint(name) else "is not a joint of the robot"
         raise UsageError(f"--pose {name}=…: '{name}' {why}{did_you_mean(name, movable)}")

@@ -25,7 +25,7 @@ from linkforge_compile.formats.mesh_paths import (
 )
 from linkforge_compile.roots import ANYWHERE
 from linkforge_compile.source.characters import UnreadableError
-from linkforge_compile.source.read_file import read_bytes
+from linkforge_compile.source.read_file import TooLargeError, read_bytes
 from linkforge_compile.view.named_files import KINDS, MESHES, TEXTURES, named_files
 
 if TYPE_CHECKING:
@@ -159,7 +159,13 @@ class _Reader:
         return digest
 
     def _content(self, path: Path) -> bytes:
-        content = read_bytes(path, min(MAX_BYTES, self._left), only_regular=True)
+        try:
+            content = read_bytes(path, min(MAX_BYTES, self._left), only_regular=True)
+        except TooLargeError as error:
+            if self._left >= MAX_BYTES:
+                raise
+            together = f"all files of the robot are larger than {MAX_ALL_BYTES // 1024**2} MiB together"
+            raise UnreadableError(together) from error
         if content is None:
             raise UnreadableError("the file is not found")
         if not content.strip():

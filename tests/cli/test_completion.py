@@ -28,6 +28,7 @@ links: {base: , upper: , "tool/flange": }
 joints:
   elbow: {type: revolute, parent: base, child: upper, axis: y, limits: {lower: -1, upper: 1, effort: 5, velocity: 1}}
   wrist: {type: fixed, parent: upper, child: tool/flange, origin: ["$(reach)", 0, 0]}
+semantic: {groups: {arm: {joints: [elbow]}}, group_states: {arm: {up: {elbow: 1}}}}
 """
 
 HAND = """\
@@ -101,6 +102,9 @@ PARAMETERS = ["reach:=", "hardware:=", "has_gripper:="]
         ("linkforge check --color a", ["auto", "always"]),
         ("linkforge check --ignore LF5001,LF2101", ["LF5001,LF2101"]),
         ("linkforge compile --package arm=m", ["arm=meshes/"]),
+        ("linkforge view arm.robot.yaml -o arm.png --pose ", ["arm/up", "elbow="]),
+        ("linkforge collisions arm.robot.yaml --pose ", ["arm/up"]),
+        ("linkforge view arm.robot.yaml --show frames,ax", ["frames,axes"]),
         ("linkforge init --dir ", ["build/", "meshes/"]),
         ("linkforge formats sd", ["sdf"]),
         ("linkforge explain LF2101", ["LF2101"]),

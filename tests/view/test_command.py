@@ -99,7 +99,6 @@ def test_a_pose_is_a_state_or_a_position(arm: Path, poses: tuple[str, ...], posi
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
-        ((), "-o FILE.html for a page, or -o FILE.png"),
         (("-o", "arm.svg"), "ends in .html or .png, found 'arm.svg'"),
         (("-o", "a.html", "-o", "a.html"), "is given twice"),
         (("-o", "a.html", "--pose", "arm/hom"), "no state 'arm/hom'; did you mean 'arm/home'?"),

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile import compile_file
+from linkforge_compile.view import files as files_module
 from linkforge_compile.view.files import RobotFiles, collect_files
 from linkforge_compile.view.scene import make_scene
 
@@ -143,6 +144,19 @@ def test_a_collada_file_expands_nothing(tmp_path: Path):
     entity = '<!DOCTYPE a [<!ENTITY e SYSTEM "other.txt">]><a><image><init_from>&e;</init_from></image></a>'
     write(tmp_path, a__dae=entity)
     assert by_name(files_of(tmp_path, "a.dae")).keys() == {"a.dae"}
+
+
+def test_files_have_limits_of_their_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    mebibyte = 1024**2
+    monkeypatch.setattr(files_module, "MAX_BYTES", 2 * mebibyte)
+    monkeypatch.setattr(files_module, "MAX_ALL_BYTES", 3 * mebibyte)
+    write(tmp_path, a__stl=b"a" * 3 * mebibyte, b__stl=b"b" * 2 * mebibyte, c__stl=b"c" * 2 * mebibyte, d__stl=b"d")
+    files = files_of(tmp_path, "a.stl", "b.stl", "c.stl", "d.stl")
+    assert by_name(files).keys() == {"b.stl", "d.stl"}
+    assert {one.resource: one.reason for one in files.missing} == {
+        "a.stl": "it is larger than 2 MiB",
+        "c.stl": "all files of the robot are larger than 3 MiB together",
+    }
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")

@@ -64,6 +64,12 @@ class Candidates(BaseCompleter):
             case "packages" | "before_package" | "after_package":
                 name, equals, folder = prefix.partition("=")
                 return {f"{name}={path}": "" for path in _paths(folder, ())} if equals else {}
+            case "poses":
+                return self._of_poses()
+            case "show":
+                from linkforge_compile.cli.commands.view import LAYERS
+
+                return _after(prefix, ",", dict.fromkeys(LAYERS, ""))
             case "select" | "ignore":
                 return _after(prefix, ",", {code.id: code.title for code in REGISTER.values()})
         return self._of_files(prefix, action.metavar)
@@ -124,6 +130,17 @@ class Candidates(BaseCompleter):
                 listing, _ = parameters_of(word, packages=packages, allow_outside=may_leave)
                 if listing:
                     yield listing
+
+    def _of_poses(self) -> Described:
+        """Return the states of the groups of the compiled robot, and `JOINT=` of the joints that `view` can move."""
+        from linkforge_compile.cli.options import compile_spec
+        from linkforge_compile.cli.poses import movable_joints, states_by_name
+
+        robot = compile_spec(self._words[0], self._assignments, self._given).robot if self._words else None
+        if robot is None:
+            return {}
+        joints = movable_joints(robot) if self._command == "view" else ()
+        return dict.fromkeys((*states_by_name(robot), *(f"{joint}=" for joint in joints)), "")
 
     def _paths_in_robot(self, prefix: str) -> Described:
         """Return the parts and values of the compiled robot at the path before the last slash."""
