@@ -143,6 +143,7 @@ def test_two_hundred_updates_hold_no_more_than_one(page: Path, new_tab: Callable
     html = html_of(scene, files)
     scene["files"] = json.loads(html.split('type="application/json">')[1].split("</script>")[0])["files"]
     tab = new_tab()
+    tab.set_viewport_size({"width": 160, "height": 120})  # 200 pictures by software
     tab.add_init_script(SERVER)
     file = tmp_path / "robot.html"
     file.write_text(html, "utf-8")

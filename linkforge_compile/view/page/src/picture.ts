@@ -60,7 +60,8 @@ export class Picture {
     this.viewport.scene.add(robot.root);
     for (const change of ["positions", "layers", "selection"] as const) this.update(change);
     this.grid.layUnder(robot.extent(), robot.size);
-    if (isFirst) this.viewport.fit(robot.extent(), scene.view.camera);
+    if (!isFirst) return this.viewport.frame();
+    this.viewport.fit(robot.extent(), scene.view.camera);
     this.viewport.draw();
   }
 
