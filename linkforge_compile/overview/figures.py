@@ -130,11 +130,12 @@ def mesh_files(robot: Robot) -> dict[str, Path | str]:
 
 
 def _checked(robot: Robot, resource: str, path: Path | None) -> Path | str:
+    """Return the file of a mesh, or the reason why there is none that may be read."""
     resolver = robot.resource_resolver
     roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
-    if path is None or not is_file(path):
-        return reason_not_found(robot, resource)
-    return path if roots.hold(path) else "it is outside of the folders that a spec may read; use --allow-outside"
+    if path and not roots.hold(path):
+        return "it is outside of the folders that a spec may read; use --allow-outside"
+    return path if path and is_file(path) else reason_not_found(robot, resource)
 
 
 def _mesh_file(resource: str, file: Path | str) -> MeshFile:

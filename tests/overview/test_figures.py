@@ -207,3 +207,13 @@ def test_without_the_extra_only_primitive_shapes_are_measured(tmp_path: Path, mo
     assert figures.extent.box is not None
     assert figures.extent.box.sides == pytest.approx((1, 2, 3))
     assert "linkforge-compile[mesh]" in figures.extent.left_out["good.stl"]
+
+
+def test_a_mesh_outside_of_the_folders_of_a_spec_is_not_read(tmp_path: Path):
+    (tmp_path / "own").mkdir()
+    (tmp_path / "secret.stl").write_bytes(trimesh.creation.box((4, 1, 1)).export(file_type="stl"))
+    spec = tmp_path / "own" / "r.robot.yaml"
+    spec.write_text("linkforge: 1\nname: r\nlinks: {base: {visual: {mesh: ../secret.stl}}}\n")
+    figures = figures_of(robot_of(spec))
+    assert (figures.extent.box, figures.meshes[0].size) == (None, None)
+    assert "outside" in (figures.meshes[0].missing or "")

@@ -1,4 +1,5 @@
 /** What is around the picture: joints, poses, the tree, layers, details, parameters and problems. */
+import { keepInAddress } from "../fragment";
 import { listen } from "../live";
 import type { State } from "../state";
 import { makeDetails } from "./details";
@@ -32,6 +33,7 @@ export function mountPanels(state: State, actions: Actions): void {
   const bar = makeBar(state, search, actions, help);
   document.getElementById("panels")!.append(bar, left, over, right, help);
   document.body.classList.add("has-panels");
+  keepInAddress(state);
   if (state.scene.live) listen(state);
 }
 
