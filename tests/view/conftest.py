@@ -40,13 +40,15 @@ OPTIONS = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-co
 ALLOWED = ("file:", "data:", "blob:", "http://127.0.0.1:")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium(browser: Sequence[str]) -> Iterator[Any]:
-    """The browser as Playwright drives it, with graphics by software."""
+    """The browser as Playwright drives it, with graphics by software; a process has one at a time."""
     playwright = pytest.importorskip("playwright.sync_api")
     with playwright.sync_playwright() as driver:
         program, *words = browser
-        yield driver.chromium.launch(executable_path=program, args=[*words, *OPTIONS], chromium_sandbox=False)
+        running = driver.chromium.launch(executable_path=program, args=[*words, *OPTIONS])
+        yield running
+        running.close()
 
 
 @pytest.fixture

@@ -66,7 +66,8 @@ export class Picture {
     if (this.compared) this.viewport.scene.add(this.compared.root);
     for (const change of ["positions", "layers", "selection"] as const) this.update(change);
     this.grid.layUnder(robot.extent(), robot.size);
-    if (isFirst) this.viewport.fit(robot.extent(), scene.view.camera);
+    if (!isFirst) return this.viewport.frame();
+    this.viewport.fit(robot.extent(), scene.view.camera);
     this.viewport.draw();
   }
 

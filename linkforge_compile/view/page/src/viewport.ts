@@ -35,6 +35,12 @@ export class Viewport {
     this.waiting ||= requestAnimationFrame(() => this.draw());
   }
 
+  /** Draw in the next frame, and wait for it: updates come no faster than they are drawn. */
+  async frame(): Promise<void> {
+    this.redraw();
+    if (!document.hidden) await new Promise((done) => requestAnimationFrame(done));
+  }
+
   /** Draw now. */
   draw(): void {
     cancelAnimationFrame(this.waiting);
