@@ -125,4 +125,6 @@ export interface Scene {
   missing: MissingFile[];
   view: View;
   live: boolean;
+  /** That of the live viewer in which the scene was new. */
+  version?: number;
 }

@@ -18,6 +18,8 @@ export interface Problem extends Partial<Omit<Place, "file">> {
   /** The address of the page that explains the code. */
   page?: string | null;
   hints?: string[];
+  /** The line at fault, with a mark under the words. */
+  snippet?: string;
 }
 
 export interface Parameter {
@@ -54,8 +56,6 @@ export class State {
   connection = "";
   problems: readonly Problem[] = [];
   settings: Settings = { parameters: [], variants: [], variant: null };
-  /** Whether the spec is faulty, so that an older robot is shown. */
-  isOutdated = false;
   #scene: Scene;
   #set: Record<string, number>;
   #positions: Positions;
@@ -168,7 +168,6 @@ export class State {
   receive(update: Update): void {
     this.problems = update.problems;
     this.settings = update.settings;
-    this.isOutdated = update.scene === null && update.problems.some((problem) => problem.severity === "error");
     if (update.scene) this.setScene(update.scene);
     this.#tell("live");
   }
