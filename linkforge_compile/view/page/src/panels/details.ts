@@ -49,12 +49,14 @@ function massRows({ mass, center, inertia }: Link): Row[] {
   const rows: Row[] = [["mass", `${brief(mass)} kg`]];
   if (center) rows.push(["centre of mass", `${vector(center)} m`]);
   if (!inertia) return rows;
-  const [ixx, iyy, izz, ixy, ixz, iyz] = inertia.moments.map((moment) => brief(moment, 3));
-  const table = make("table", { className: "inertia" });
-  for (const line of [[ixx, ixy, ixz], ["", iyy, iyz], ["", "", izz]]) {
-    table.append(make("tr", {}, ...line.map((moment) => make("td", {}, moment ?? ""))));
-  }
-  return [...rows, ["inertia", table], ["", "kg·m², at the centre of mass"]];
+  return [...rows, ["inertia at the centre of mass [kg·m²]", inertiaTable(inertia.moments)]];
+}
+
+function inertiaTable(moments: readonly number[]): HTMLTableElement {
+  const [ixx, iyy, izz, ixy, ixz, iyz] = moments.map((moment) => brief(moment, 3));
+  const lines = [[ixx, ixy, ixz], ["", iyy, iyz], ["", "", izz]];
+  const rows = lines.map((line) => make("tr", {}, ...line.map((moment) => make("td", {}, moment ?? ""))));
+  return make("table", { className: "inertia" }, ...rows);
 }
 
 function jointRows(joint: Joint, position: HTMLElement, state: State): Row[] {
@@ -110,7 +112,7 @@ async function copyText(text: HTMLElement, button: HTMLButtonElement): Promise<v
 function shownNow(joint: Joint, state: State): string {
   const unit = positionUnit(joint, state.isInDegrees);
   const position = shownPosition(state.positions[joint.name] ?? 0, unit);
-  return `${position.replace("-", "−")} ${unit.name}`;
+  return position.replace("-", "−") + (unit.name === "°" ? "" : " ") + unit.name;
 }
 
 function vector(numbers: readonly number[]): string {

@@ -87,8 +87,9 @@ class JointRow {
     this.slider.oninput = () => state.setPositions({ [name]: this.slider.valueAsNumber });
     this.slider.ondblclick = () => this.moveToStart();
     this.number.onchange = () => this.readNumber();
-    const head = [this.name, this.number, this.unit, this.reset];
-    this.element = make("div", { className: "joint" }, make("div", { className: "line" }, ...head), this.slider);
+    const head = make("div", { className: "line" }, this.name, this.number, this.unit);
+    const body = make("div", { className: "line" }, this.slider, this.reset);
+    this.element = make("div", { className: "joint" }, head, body);
     if (joint.mimic) this.element.append(make("div", { className: "mimic" }, shownMimic(joint)));
     this.element.dataset["joint"] = name;
     this.show();

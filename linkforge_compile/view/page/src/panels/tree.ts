@@ -152,8 +152,11 @@ class Row {
     this.eye = makeButton("", "", () => undefined);
     this.eye.className = "eye";
     this.eye.tabIndex = -1;
-    const names = make("span", { className: "names" }, make("span", { className: "name" }, link.name), ...shownJoint(state.joint(link.parent)));
-    const parts = [this.twisty, names, ...moduleTag(link.module), this.eye];
+    const name = make("span", { className: "name" }, link.name);
+    const names = make("span", { className: "names" }, name, ...shownJoint(state.joint(link.parent)));
+    // At its first link only: the names of deep links need the place.
+    const module = link.module === above?.link.module ? "" : link.module;
+    const parts = [this.twisty, names, ...moduleTag(module), this.eye];
     this.element = make("div", { role: "treeitem", ariaLevel: String(level), tabIndex: -1, title: link.name }, ...parts);
     this.element.dataset["link"] = link.name;
     this.element.style.setProperty("--level", String(Math.min(level - 1, DEEPEST_INDENT)));
