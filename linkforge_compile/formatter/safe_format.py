@@ -16,7 +16,7 @@ from linkforge_compile.formatter.pieces import LINE_BREAK, Piece, UnsafeError, s
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER
 from linkforge_compile.syntax import read
-from linkforge_compile.syntax.parser import MAX_READ_TWICE, PARSER, Marks, Parser
+from linkforge_compile.syntax.parser import MAX_READ_TWICE, PARSER, Marks, Parser, limited_events
 
 _MAX_PASSES = 10
 """A pass may move columns apart that were aligned before it, and the next one then ends their alignment."""
@@ -64,7 +64,7 @@ def _parse(text: str) -> tuple[Parser, list[Event]] | None:
     # As in the reader: what libyaml rejects, PyYAML's slow parser may accept.
     for parser in (PARSER, yaml.BaseLoader) if len(text) <= MAX_READ_TWICE else (PARSER,):
         try:
-            return parser, list(yaml.parse(text, Loader=parser))
+            return parser, list(limited_events(text, parser))
         except yaml.YAMLError:
             continue
     return None

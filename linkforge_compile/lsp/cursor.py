@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-import yaml
 from yaml.events import (
     AliasEvent,
     MappingEndEvent,
@@ -24,7 +23,7 @@ from yaml.events import (
 )
 
 from linkforge_compile.source import Position, SourceFile, Span
-from linkforge_compile.syntax.parser import PARSER
+from linkforge_compile.syntax.parser import readable_events
 
 _Path: TypeAlias = tuple[str | int, ...]
 
@@ -145,25 +144,22 @@ def _read_to_marker(text: str, levels: list[_Level]) -> str | None:
 
     If the text is malformed, they are those that are open there.
     """
-    try:
-        for event in yaml.parse(text, Loader=PARSER):
-            match event:
-                case ScalarEvent(value=value) if MARKER in value:
-                    return str(value.partition(MARKER)[0])
-                case ScalarEvent(value=value):
-                    if levels:
-                        levels[-1].pass_node(value)
-                case AliasEvent():
+    for event in readable_events(text):
+        match event:
+            case ScalarEvent(value=value) if MARKER in value:
+                return str(value.partition(MARKER)[0])
+            case ScalarEvent(value=value):
+                if levels:
+                    levels[-1].pass_node(value)
+            case AliasEvent():
+                levels[-1].pass_node("")
+            case MappingStartEvent() | SequenceStartEvent():
+                is_map = isinstance(event, MappingStartEvent)
+                levels.append(_Level(is_map=is_map, is_flow=bool(event.flow_style)))
+            case MappingEndEvent() | SequenceEndEvent():
+                levels.pop()
+                if levels:
                     levels[-1].pass_node("")
-                case MappingStartEvent() | SequenceStartEvent():
-                    is_map = isinstance(event, MappingStartEvent)
-                    levels.append(_Level(is_map=is_map, is_flow=bool(event.flow_style)))
-                case MappingEndEvent() | SequenceEndEvent():
-                    levels.pop()
-                    if levels:
-                        levels[-1].pass_node("")
-    except yaml.YAMLError:
-        pass
     return None
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 from lsprotocol import types
 
@@ -23,12 +24,12 @@ _FILE = "a file name"
 
 def document_links(document: Document, settings: Settings) -> list[types.DocumentLink]:
     """Return the links of an open spec, to files that exist and that it may read."""
-    user = _spec_of(document)
+    user, packages = _spec_of(document)
     if user is None:
         return []
     loader = settings.loader(document.path)
-    found = {(span.start, span.end): (span, text) for span, text in _paths(document, user)}
-    return [link for span, text in found.values() if (link := _link(document, user, loader, span, text))]
+    found = {(span.start, span.end): PathSite(text, span, user, packages) for span, text in _paths(document, user)}
+    return [link for site in found.values() if (link := _link(document, loader, site))]
 
 
 def files_at(document: Document, at: Position, settings: Settings) -> list[types.Location]:
@@ -39,17 +40,18 @@ def files_at(document: Document, at: Position, settings: Settings) -> list[types
     return [types.Location(link.target, start) for link in here if link.target]
 
 
-def _spec_of(document: Document) -> SpecFile | None:
-    """Return the file of a document as the compiler read it, itself or as a part of another one."""
+def _spec_of(document: Document) -> tuple[SpecFile | None, Mapping[str, Path]]:
+    """Return the file of a document as the compiler read it, itself or as a part of another one, and its packages."""
     for analysis in document.analyses:
         if analysis.spec is None:
             continue
+        packages = analysis.instance.packages if analysis.instance else analysis.spec.packages
         if document.holds(analysis.spec.file.whole):
-            return analysis.spec
+            return analysis.spec, packages
         for file, part in analysis.spec.included.items():
             if file.path is not None and identity(file.path) == identity(document.path):
-                return part
-    return None
+                return part, packages
+    return None, {}
 
 
 def _paths(document: Document, user: SpecFile) -> Iterator[tuple[Span, str]]:
@@ -71,11 +73,11 @@ def _is_file(path: tuple[str | int, ...], node: YamlScalar) -> bool:
     return is_path and any(one.schema.get("title") == _FILE for one in described_at(path))
 
 
-def _link(document: Document, user: SpecFile, loader: Loader, span: Span, text: str) -> types.DocumentLink | None:
+def _link(document: Document, loader: Loader, site: PathSite) -> types.DocumentLink | None:
     try:
-        target = locate(PathSite(text, span, user, user.packages), loader, Diagnostics())
+        target = locate(site, loader, Diagnostics())
     except BeyondLimitError:
         return None
     if target is None or not loader.roots.hold(target.path) or not exists(target.path):
         return None
-    return types.DocumentLink(document.columns.range(span), uri_of(target.path), str(target.path))
+    return types.DocumentLink(document.columns.range(site.where), uri_of(target.path), str(target.path))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
-import yaml
 from lsprotocol import types
 from yaml.events import (
     CollectionEndEvent,
@@ -17,11 +16,11 @@ from yaml.events import (
 )
 
 from linkforge_compile.source import SourceFile
-from linkforge_compile.syntax.parser import PARSER
+from linkforge_compile.syntax.parser import readable_events
 
 
 def folding_ranges(file: SourceFile) -> list[types.FoldingRange]:
-    """Return the ranges of a text; a fault of YAML ends those that are open at it, and nothing after it folds."""
+    """Return the ranges of a text; those that are open at a fault of YAML end with the text."""
     lines = [line.strip() for line in file.lines]
     found = {begin: _last_line(lines, begin, end) for begin, end in _nodes(file)}
     ranges = [types.FoldingRange(begin, end) for begin, end in sorted(found.items()) if end > begin]
@@ -38,23 +37,21 @@ def _last_line(lines: list[str], begin: int, end: int) -> int:
 def _nodes(file: SourceFile) -> Iterator[tuple[int, int]]:
     """Yield the first and last line of each node, from the key of an entry on; the innermost of a line come first."""
     open_nodes: list[_Open] = []
-    try:
-        for event in yaml.parse(file.counted, Loader=PARSER):
-            if isinstance(event, CollectionEndEvent):
-                closed = open_nodes.pop()
-                if open_nodes:  # the whole text does not fold
-                    yield closed.line, _end_line(event, file)
-                continue
-            if not isinstance(event, NodeEvent):
-                continue
-            line = open_nodes[-1].line_of_child(_line(event)) if open_nodes else _line(event)
-            if isinstance(event, CollectionStartEvent):
-                open_nodes.append(_Open(line, is_map=isinstance(event, MappingStartEvent)))
-            elif isinstance(event, ScalarEvent):
-                yield line, _end_line(event, file)
-    except yaml.YAMLError:
-        last = len(file.lines) - 1
-        yield from ((one.line, last) for one in reversed(open_nodes[1:]))
+    for event in readable_events(file.counted):
+        if isinstance(event, CollectionEndEvent):
+            closed = open_nodes.pop()
+            if open_nodes:  # the whole text does not fold
+                yield closed.line, _end_line(event, file)
+            continue
+        if not isinstance(event, NodeEvent):
+            continue
+        line = open_nodes[-1].line_of_child(_line(event)) if open_nodes else _line(event)
+        if isinstance(event, CollectionStartEvent):
+            open_nodes.append(_Open(line, is_map=isinstance(event, MappingStartEvent)))
+        elif isinstance(event, ScalarEvent):
+            yield line, _end_line(event, file)
+    last = len(file.lines) - 1
+    yield from ((one.line, last) for one in reversed(open_nodes[1:]))
 
 
 class _Open:

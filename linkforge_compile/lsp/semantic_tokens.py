@@ -10,7 +10,6 @@ import ast
 from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
-import yaml
 from lsprotocol import types
 from yaml.events import ScalarEvent
 
@@ -21,7 +20,7 @@ from linkforge_compile.expressions.types import Expression
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import has_expression
-from linkforge_compile.syntax.parser import PARSER, Marks
+from linkforge_compile.syntax.parser import Marks, readable_events
 
 _TYPES = types.SemanticTokenTypes
 LEGEND = types.SemanticTokensLegend(
@@ -41,13 +40,10 @@ def semantic_tokens(document: Document) -> types.SemanticTokens:
 
 def _expressions(file: SourceFile) -> Iterator[Expression]:
     marks = Marks(file)
-    try:
-        for event in yaml.parse(marks.text, Loader=PARSER):
-            if isinstance(event, ScalarEvent) and has_expression(event.value):
-                template = parse_template(event.value, marks.scalar(event), Diagnostics())
-                yield from (part for part in (template.parts if template else ()) if isinstance(part, Expression))
-    except yaml.YAMLError:
-        return
+    for event in readable_events(marks.text):
+        if isinstance(event, ScalarEvent) and has_expression(event.value):
+            template = parse_template(event.value, marks.scalar(event), Diagnostics())
+            yield from (part for part in (template.parts if template else ()) if isinstance(part, Expression))
 
 
 def _tokens(expression: Expression, parameters: Collection[str]) -> Iterator[tuple[Span, str]]:

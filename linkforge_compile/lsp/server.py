@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcInternalError
+from pygls.exceptions import JsonRpcException, JsonRpcInternalError
 from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
@@ -31,6 +32,12 @@ DEBOUNCE = 0.1
 """Time without a change before specs are analysed [s]."""
 
 
+def _is_fault(record: logging.LogRecord) -> bool:
+    """Whether a record is about a fault: an answer may cross its cancellation, and a refusal is an answer."""
+    is_refusal = record.exc_info is not None and isinstance(record.exc_info[1], JsonRpcException)
+    return not is_refusal and not record.getMessage().startswith("Cancel notification for unknown message")
+
+
 class SpecServer(LanguageServer):
     """The language server of one editor.
 
@@ -40,6 +47,7 @@ class SpecServer(LanguageServer):
 
     def __init__(self) -> None:
         super().__init__("linkforge", __version__, text_document_sync_kind=types.TextDocumentSyncKind.Full)
+        logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_fault)
         self.specs = Workspace()
         self.hints = HintOptions()
         # What takes long, a spec or a request, does not delay the others.

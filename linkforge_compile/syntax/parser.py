@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 import yaml
-from yaml.events import Event, NodeEvent, ScalarEvent
+from yaml.events import CollectionEndEvent, CollectionStartEvent, Event, NodeEvent, ScalarEvent
 
 from linkforge_compile.diagnostics.reports import Suppression
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax.nodes import MAX_DEPTH
 
 MAX_READ_TWICE = 250_000
 """The largest file, in characters, that PyYAML's slow parser reads after libyaml has failed."""
@@ -27,6 +28,31 @@ _PROPERTIES = re.compile(r"(?:[&!]\S*\s*|#[^\r\n]*\s*)+")
 """Anchors and tags before a value, and comments between them and it."""
 
 _BLOCK_STYLES = ("|", ">")
+
+
+class TooDeepError(yaml.YAMLError):
+    """Lists and maps are nested deeper than a spec may nest them."""
+
+
+def limited_events(text: str, parser: Parser = PARSER) -> Iterator[Event]:
+    """Yield the events of a text; yaml.YAMLError if it is malformed or too deep.
+
+    The time of libyaml grows with the square of the depth.
+    """
+    depth = 0
+    for event in yaml.parse(text, Loader=parser):
+        depth += isinstance(event, CollectionStartEvent) - isinstance(event, CollectionEndEvent)
+        if depth > MAX_DEPTH:
+            raise TooDeepError
+        yield event
+
+
+def readable_events(text: str) -> Iterator[Event]:
+    """Yield the events of a text up to what is malformed or too deep."""
+    try:
+        yield from limited_events(text)
+    except yaml.YAMLError:
+        return
 
 
 class Marks:

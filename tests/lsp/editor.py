@@ -170,6 +170,12 @@ class Editor:
         status = Path(f"/proc/{self._client._server.pid}/status").read_text("ascii")
         return int(re.findall(r"VmRSS:\s*(\d+)", status)[0]) / 1024
 
+    def log(self) -> str:
+        """Return what the server wrote to standard error, once it has ended."""
+        assert self._client._server is not None
+        assert self._client._server.stderr is not None
+        return bytes(self._client._server.stderr._buffer).decode()  # type: ignore[attr-defined]  # its loop has ended
+
     def published(self, path: Path, until: Callable[[list[types.Diagnostic]], bool]) -> list[types.Diagnostic]:
         """Return the diagnostics of a file that need not be open, once they fulfil a condition."""
         uri = path.as_uri()

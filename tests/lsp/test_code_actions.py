@@ -95,6 +95,7 @@ joints:
 """
     path = tmp_path / "arm.robot.yaml"
     assert actions(editor, path, text, "base", ["source.fixAll"]) == []
+    assert [one.is_preferred for one in actions(editor, path, text, "base}", ["quickfix"])] == [None]
     other = text.replace("type: fixed, parent: Base, child: u", "type: Fixed, parent: Base, child: u")
     (action,) = actions(editor, path, other, "base", ["source.fixAll"])
     assert applied(action, path, other) == text

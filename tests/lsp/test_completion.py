@@ -161,7 +161,7 @@ def test_a_position_beyond_the_text_and_a_closed_document_end_nothing(editor: Ed
     beyond = types.CompletionParams(document, types.Position(1000, 1000))
     assert isinstance(editor.ask(lambda client: client.text_document_completion_async(beyond)), list)
     editor.close(file)
-    assert editor.ask(lambda client: client.text_document_completion_async(beyond)) == []
+    assert editor.ask(lambda client: client.text_document_completion_async(beyond)) is None
 
 
 def test_a_text_that_was_never_readable_has_completions(editor: Editor, tmp_path: Path):
@@ -211,3 +211,18 @@ def test_values_of_an_override_are_names_of_the_module(tmp_path: Path, value: st
         labels = [item.label for item in completions(editor, path, text, position)]
     assert set(offered.split()) <= set(labels), labels
     assert not {"forearm", "left_finger", "world"} & set(labels), labels
+
+
+def test_a_state_offers_the_joints_of_its_group_first(editor: Editor, tmp_path: Path):
+    links = "".join(f"  l{number}: {{}}\n" for number in range(5))
+    joints = "".join(
+        f"  {name}: {{type: continuous, parent: l{number}, child: l{number + 1}}}\n"
+        for number, name in enumerate("abcd")
+    )
+    groups = "groups: {arm: {chains: [{base_link: l2, tip_link: l4}]}}"
+    semantic = f"semantic:\n  {groups}\n  group_states:\n    arm: {{up: {{¦}}}}\n"
+    text = f"linkforge: 1\nname: r\nlinks:\n{links}joints:\n{joints}{semantic}"
+    file = tmp_path / "r.robot.yaml"
+    editor.open(file, text.replace("¦", ""))
+    editor.diagnostics(file)
+    assert [label for label in labels_at(editor, file, text) if label in "abcd"] == ["c", "d", "a", "b"]

@@ -35,6 +35,46 @@ def test_there_are_no_hints_unless_an_editor_wants_them(cell: Path):
         assert not list(hints(editor, cell / "arm.robot.yaml"))
 
 
+def test_a_change_of_the_configuration_turns_hints_on_and_off(cell: Path):
+    with Editor(cell) as editor:
+        for wanted in (ALL, {}, ALL, {"inlayHints": None}):
+            params = types.DidChangeConfigurationParams({"linkforge": wanted})
+            editor.send(lambda client, params=params: client.workspace_did_change_configuration(params))
+            assert bool(list(hints(editor, cell / "arm.robot.yaml"))) == (wanted is ALL)
+        other = types.DidChangeConfigurationParams({"yaml": ALL})
+        editor.send(lambda client: client.workspace_did_change_configuration(other))
+        assert not list(hints(editor, cell / "arm.robot.yaml"))
+
+
+LINKED = """\
+linkforge: 1
+name: linked
+packages: {parts: parts}
+include: [¦part.yaml]
+data: {sizes: ¦sizes.yaml}
+links:
+  base: {}
+  tip: {visual: {mesh: {file: ¦"package://parts/tip.stl"}}}
+  end: {visual: {mesh: {file: ¦end.stl}}}
+modules:
+  old: {use: ¦old.urdf, srdf: ¦old.srdf, parent: base}
+"""
+
+
+def test_each_kind_of_path_links_to_its_file(tmp_path: Path):
+    (tmp_path / "parts").mkdir()
+    names = ["part.yaml", "sizes.yaml", "parts/tip.stl", "end.stl", "old.urdf", "old.srdf"]
+    texts = {"part.yaml": "links: {part: {}}\n", "sizes.yaml": "a: 1\n", "old.urdf": URDF_TEXT}
+    for name in names:
+        (tmp_path / name).write_text(texts.get(name, '<robot name="old"/>'))
+    places = [(line, len(text.split("¦")[0])) for line, text in enumerate(LINKED.split("\n")) if "¦" in text]
+    with Editor(tmp_path) as editor:
+        params = types.DocumentLinkParams(editor.open(tmp_path / "linked.robot.yaml", LINKED.replace("¦", "")))
+        found = editor.ask(lambda client: client.text_document_document_link_async(params)) or []
+    assert {one.target for one in found} == {(tmp_path / name).as_uri() for name in names}
+    assert {(one.range.start.line, one.range.start.character) for one in found} >= set(places)
+
+
 def test_hints_show_si_values_masses_and_final_names(cell: Path):
     with Editor(cell, options=ALL) as editor:
         editor.open(cell / "cell.robot.yaml")

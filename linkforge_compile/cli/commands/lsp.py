@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import os
+from typing import TYPE_CHECKING, NoReturn
 
 from linkforge_compile.cli import OK, UsageError
 
@@ -25,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--port", type=int, metavar="PORT", help="listen for one client on 127.0.0.1")
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> NoReturn:
     try:
         from linkforge_compile.lsp.features import make_server
     except ModuleNotFoundError as error:
@@ -36,4 +37,5 @@ def run(arguments: argparse.Namespace) -> int:
         make_server().start_tcp("127.0.0.1", arguments.port)
     else:
         make_server().start_io()
-    return OK
+    # Otherwise the process would wait for the analyses that run, whose results nothing reads any more.
+    os._exit(OK)

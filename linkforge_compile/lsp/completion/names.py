@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.editor.completions import KEYS, NAMES, in_quotes_if_needed, marked_names
 from linkforge_compile.editor.vocabulary import Entries, entries_of, names_by_kind
@@ -90,16 +91,25 @@ def keys_that_name(context: Context) -> list[tuple[str, str]]:
         return [] if isinstance(entries, Mapping) else [(name, "in the module") for name in entries]
     kinds = kinds_of_names(context.branches, KEYS)
     found = [(name, kind) for kind in kinds for name in names_here(context, kind)]
-    return [*_parts_of_group(context, context.robot), *found] if context.robot else found
-
-
-def _parts_of_group(context: Context, robot: Robot) -> list[tuple[str, str]]:
-    """Return the groups within the group of a state, whose states it may name."""
     path = context.cursor.path
-    if path[:2] != _STATES or len(path) != len(_STATES) + 2:
-        return []
-    groups = (group for group in robot.semantic.groups if group.name == path[2])
-    return [(name, "group") for group in groups for name in group.subgroups]
+    if context.robot is None or path[:2] != _STATES or len(path) != len(_STATES) + 2:
+        return found
+    joints = _joints_moved_by(str(path[2]), context.robot)
+    found.sort(key=lambda one: one[0] not in joints)
+    return [*_parts_of_group(str(path[2]), context.robot), *found]
+
+
+def _joints_moved_by(group: str, robot: Robot) -> Collection[str]:
+    """Return the joints that a group moves, also by its links, chains and subgroups."""
+    links = LinkSets(robot)
+    moved = links.of_groups.get(group, 0)
+    return {joint for joint, link in links.moved.items() if links.bit(link) & moved}
+
+
+def _parts_of_group(name: str, robot: Robot) -> list[tuple[str, str]]:
+    """Return the groups within the group of a state, whose states it may name."""
+    groups = (group for group in robot.semantic.groups if group.name == name)
+    return [(one, "group") for group in groups for one in group.subgroups]
 
 
 def override_at(context: Context) -> tuple[Entries, tuple[str | int, ...]] | None:
