@@ -96,6 +96,13 @@ def apply_safe_fixes(
     return Fixed(report, {shown[real]: text for real, text in texts.items()}, numbers, tuple(refused.values()))
 
 
+def is_proven(diagnostic: Diagnostic, fix: Fix, before: Report, check: Callable[[Mapping[str, str]], Report]) -> bool:
+    """Whether a safe fix of a diagnostic in a report can be applied; `check` is that of `apply_safe_fixes`."""
+    chosen = [_Candidate(diagnostic, fix)]
+    after = check({identity(path): text for path, text in _edited(chosen).items()})
+    return not _new_fault(chosen, before, after)
+
+
 def files_to_fix(report: Report) -> set[Path]:
     """Return the files that the safe fixes of a report would change."""
     return {path for one in _safe(report) for edit in one.fix.edits if (path := edit.span.file.path)}

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias
 
 from lsprotocol import types
 
-from linkforge_compile.analysis import Settings, analyse_path
+from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.grouping import group_at_places
-from linkforge_compile.fixing import apply_safe_fixes
+from linkforge_compile.fixing import apply_safe_fixes, is_proven
 from linkforge_compile.lsp.convert import Columns, uri_of
 from linkforge_compile.lsp.formatting import edits_to
 from linkforge_compile.lsp.workspace import Document
@@ -27,16 +27,17 @@ KINDS = (types.CodeActionKind.QuickFix, FIX_ALL)
 def code_actions(
     document: Document, selection: types.Range, context: types.CodeActionContext, settings: Settings
 ) -> list[types.CodeAction]:
-    """Return the actions for a selection, of the kinds that the editor asks for: the safe fixes are preferred.
+    """Return the actions for a selection, of the kinds that the editor asks for.
 
-    All safe fixes at once are an action only for an editor that asks for actions of a whole text: proving them takes
-    some analyses with these settings, and they are no answer to one diagnostic.
+    Safe fixes are preferred if an analysis with these settings proves them. All of them at once are an action only for
+    an editor that asks for actions of a whole text: they are no answer to one diagnostic.
     """
+    check = _check_of(document, settings)
     actions = []
     if _is_wanted(types.CodeActionKind.QuickFix, context.only):
         selected = [one for one in _reported_in(document) if _is_in(one, document, selection)]
-        actions += [action for one in selected for action in _quick_fixes(one, document.columns, context.diagnostics)]
-    if context.only and _is_wanted(FIX_ALL, context.only) and (action := _fix_all(document, settings)):
+        actions += [action for one in selected for action in _quick_fixes(one, document, context.diagnostics, check)]
+    if context.only and _is_wanted(FIX_ALL, context.only) and (action := _fix_all(document, check)):
         actions.append(action)
     return actions
 
@@ -62,30 +63,45 @@ def _is_in(one: Diagnostic, document: Document, selection: types.Range) -> bool:
     return one.span is not None and one.span.start <= end and start <= one.span.end
 
 
-def _quick_fixes(one: Diagnostic, columns: Columns, shown: Iterable[types.Diagnostic]) -> Iterator[types.CodeAction]:
-    """Yield an action for each fix of a diagnostic, then one that ignores it; `shown` are those of the editor."""
-    its = [each for each in shown if each.code == one.code.id and one.span and each.range == columns.range(one.span)]
-    for fix in one.fixes:
-        yield _action(fix, types.CodeActionKind.QuickFix, columns, its, is_preferred=fix.is_safe)
-    if comment := ignore_fix(one):
-        yield _action(comment, types.CodeActionKind.QuickFix, columns, its)
-
-
 class _Checked(NamedTuple):
     """The diagnostics of all specs that read a text."""
 
     diagnostics: tuple[Diagnostic, ...]
 
+    @classmethod
+    def of(cls, analyses: Iterable[Analysis]) -> _Checked:
+        return cls(tuple(diagnostic for one in analyses for diagnostic in one.compilation.diagnostics))
 
-def _fix_all(document: Document, settings: Settings) -> types.CodeAction | None:
-    """Return the action that applies all safe fixes of a text, as `check --fix` does; None if there are none."""
+
+_Check: TypeAlias = Callable[[Mapping[str, str]], _Checked]
+
+
+def _check_of(document: Document, settings: Settings) -> _Check:
+    """Return the check of all specs that read a document, with texts in place of files."""
     roots = [one.compilation.files[0] for one in document.analyses if one.compilation.files]
 
     def check(texts: Mapping[str, str]) -> _Checked:
-        buffers = {**settings.buffers, **texts}
-        compilations = [analyse_path(root, settings._replace(buffers=buffers)).compilation for root in roots]
-        return _Checked(tuple(diagnostic for one in compilations for diagnostic in one.diagnostics))
+        changed = settings._replace(buffers={**settings.buffers, **texts})
+        return _Checked.of(analyse_path(root, changed) for root in roots)
 
+    return check
+
+
+def _quick_fixes(
+    one: Diagnostic, document: Document, shown: Iterable[types.Diagnostic], check: _Check
+) -> Iterator[types.CodeAction]:
+    """Yield an action for each fix of a diagnostic, then one that ignores it; `shown` are those of the editor."""
+    columns, before = document.columns, _Checked.of(document.analyses)
+    its = [each for each in shown if each.code == one.code.id and one.span and each.range == columns.range(one.span)]
+    for fix in one.fixes:
+        is_preferred = fix.is_safe and is_proven(one, fix, before, check)
+        yield _action(fix, types.CodeActionKind.QuickFix, columns, its, is_preferred=is_preferred)
+    if comment := ignore_fix(one):
+        yield _action(comment, types.CodeActionKind.QuickFix, columns, its)
+
+
+def _fix_all(document: Document, check: _Check) -> types.CodeAction | None:
+    """Return the action that applies all safe fixes of a text, as `check --fix` does; None if there are none."""
     texts = apply_safe_fixes(check, lambda path: identity(path) == identity(document.path)).texts
     edits = [edit for text in texts.values() for edit in edits_to(text, document)]
     edit = types.WorkspaceEdit(changes={uri_of(document.path): edits})
