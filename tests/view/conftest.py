@@ -2,8 +2,9 @@
 
 import os
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -33,3 +34,44 @@ def browser() -> Sequence[str]:
         if os.environ.get("LINKFORGE_REQUIRE_SHARED"):
             pytest.fail(str(error))
         pytest.skip(str(error))
+
+
+OPTIONS = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--force-color-profile=srgb")
+ALLOWED = ("file:", "data:", "blob:", "http://127.0.0.1:")
+
+
+@pytest.fixture(scope="session")
+def chromium(browser: Sequence[str]) -> Iterator[Any]:
+    """The browser as Playwright drives it, with graphics by software."""
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as driver:
+        program, *words = browser
+        yield driver.chromium.launch(executable_path=program, args=[*words, *OPTIONS], chromium_sandbox=False)
+
+
+@pytest.fixture
+def new_tab(chromium: Any) -> Iterator[Callable[[], Any]]:
+    """Return a function that opens a tab; the test fails if one asks another machine, or reports an error."""
+    context = chromium.new_context(viewport={"width": 800, "height": 600})
+    faults: list[str] = []
+    context.on("request", lambda request: request.url.startswith(ALLOWED) or faults.append(request.url))
+    context.on("weberror", lambda error: faults.append(str(error.error)))
+    context.on("console", lambda message: faults.append(message.text) if message.type == "error" else None)
+    yield context.new_page
+    context.close()
+    assert not faults
+
+
+@pytest.fixture
+def show(page: Path, new_tab: Callable[[], Any], tmp_path: Path) -> Callable[[str], Any]:
+    """Return a function that shows the HTML of a robot, from a file, in a tab, and waits until it is drawn."""
+
+    def shown(html: str) -> Any:
+        file = tmp_path / "robot.html"
+        file.write_text(html, "utf-8")
+        tab = new_tab()
+        tab.goto(file.as_uri())
+        tab.evaluate("linkforge.ready")
+        return tab
+
+    return shown

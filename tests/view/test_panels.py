@@ -19,7 +19,7 @@ playwright = pytest.importorskip("playwright.sync_api")
 expect = playwright.expect
 
 SAMPLE = json.loads(Path(__file__).with_name("sample.scene.json").read_text())
-OPTIONS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+OPTIONS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SPEC = """\
 linkforge: 1
 name: arm
@@ -32,7 +32,8 @@ links:
   base: {}
   arm: {visual: {box: [0.1, 0.1, $(reach)]}}
 joints:
-  lift: {parent: base, child: arm, type: revolute, axis: y, limits: {lower: -1 rad, upper: 1 rad, effort: 1, velocity: 1}}
+  lift:
+    {parent: base, child: arm, type: revolute, axis: y, limits: {lower: -1 rad, upper: 1 rad, effort: 1, velocity: 1}}
 """
 
 
@@ -79,9 +80,8 @@ def positions(tab: Any) -> dict[str, float]:
 def slide(tab: Any, joint: str, position: float) -> None:
     """Move the thumb of a slider."""
     slider = tab.get_by_label(f"position of {joint}", exact=True)
-    slider.evaluate(
-        "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }", str(position)
-    )
+    move = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
+    slider.evaluate(move, str(position))
 
 
 def test_a_slider_moves_its_joint_and_the_links_below(show: Open):
@@ -176,9 +176,8 @@ def test_the_search_finds_links_and_joints_with_what_is_above_them(show: Open, t
     tab.keyboard.press("/")
     tab.keyboard.type(text)
     assert shown_links(tab) == ["base", "upper", "fore", "gripper/palm", "gripper/left"]
-    assert tab.locator(".joint:visible").evaluate_all("rows => rows.map(row => row.dataset.joint)") == [
-        "gripper/left_slide"
-    ]
+    joints = tab.locator(".joint:visible").evaluate_all("rows => rows.map(row => row.dataset.joint)")
+    assert joints == ["gripper/left_slide"]
     tab.keyboard.press("Enter")
     expect(tab.get_by_role("treeitem", selected=True)).to_have_attribute("data-link", "gripper/left")
     tab.keyboard.press("Escape")
@@ -284,12 +283,9 @@ def test_an_address_with_other_robots_names_is_no_fault(show: Open):
 def test_missing_meshes_are_listed(show: Open):
     tab = show()
     tab.get_by_text("1 warning").click()
-    expect(tab.locator(".problems")).to_contain_text(
-        "1 file missing, drawn as boxes: the package 'sample' is not found"
-    )
-    expect(tab.locator(".problems")).to_contain_text(
-        "package://sample/palm.stl of gripper/palm at sample.robot.yaml:21"
-    )
+    problems = tab.locator(".problems")
+    expect(problems).to_contain_text("1 file missing, drawn as boxes: the package 'sample' is not found")
+    expect(problems).to_contain_text("package://sample/palm.stl of gripper/palm at sample.robot.yaml:21")
 
 
 def test_names_are_text_never_html(show: Open):

@@ -19,6 +19,8 @@ export interface Console {
   transform(link: string): number[];
   /** The least and the largest corner of the visuals of a link in the world. */
   extent(link: string): [number[], number[]];
+  /** The places of the links of the robot before, of a comparison, as far as they are drawn. */
+  before(): Record<string, number[]>;
   select(link: string | null): void;
   layer(name: string, isShown: boolean): void;
   /** How much the graphics card holds. */
@@ -46,6 +48,10 @@ function start(scene: Scene): Console {
     extent: (link) => {
       const { min, max } = picture.shown.extentOf(link);
       return [min.toArray(), max.toArray()];
+    },
+    before: () => {
+      const drawn = picture.compared?.drawn ?? [];
+      return Object.fromEntries(drawn.map(([link, place]) => [link, place.transpose().toArray()]));
     },
     select: (link) => state.select(link),
     layer: (name, isShown) => {

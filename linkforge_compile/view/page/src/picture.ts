@@ -1,5 +1,6 @@
 /** The robot in the viewport, kept as the state says. */
 import { Vector3, type Raycaster } from "three";
+import { Compared } from "./comparison";
 import { Shapes } from "./geometry";
 import { Grid } from "./grid";
 import { Labels } from "./labels";
@@ -13,6 +14,8 @@ export class Picture {
   ready: Promise<void>;
   readonly viewport: Viewport;
   private robot: Robot | null = null;
+  /** The robot before, of a scene with one. */
+  compared: Compared | null = null;
   private readonly shapes = new Shapes();
   private readonly grid: Grid;
   private readonly labels: Labels;
@@ -51,6 +54,8 @@ export class Picture {
     const { scene } = this.state;
     if (this.robot?.scene === scene) return;
     const robot = await Robot.make(scene, this.shapes);
+    const { comparison } = scene;
+    this.compared = comparison ? await Compared.make(scene, comparison, robot, this.shapes) : null;
     const isFirst = this.robot === null;
     this.robot?.select(null);
     this.robot?.root.removeFromParent();
@@ -58,6 +63,7 @@ export class Picture {
     this.hovered = null;
     this.shapes.sweep();
     this.viewport.scene.add(robot.root);
+    if (this.compared) this.viewport.scene.add(this.compared.root);
     for (const change of ["positions", "layers", "selection"] as const) this.update(change);
     this.grid.layUnder(robot.extent(), robot.size);
     if (isFirst) this.viewport.fit(robot.extent(), scene.view.camera);
@@ -67,10 +73,14 @@ export class Picture {
   private update(change: Change): void {
     const { robot, state } = this;
     if (!robot || robot.scene !== state.scene) return;
-    if (change === "positions") robot.move(state.positions);
-    else if (change === "selection") robot.select(state.selected);
-    else if (change === "layers" || change === "hidden") {
+    if (change === "positions") {
+      robot.move(state.positions);
+      this.compared?.move(state.positions);
+      this.compared?.show(state);
+    } else if (change === "selection") robot.select(state.selected);
+    else if (change === "layers" || change === "hidden" || change === "sides") {
       robot.show(state.layers, state.hidden);
+      this.compared?.show(state);
       this.grid.show(state.layers.has("grid"));
       this.updateLabels();
     } else return;

@@ -57,6 +57,24 @@ export class Robot {
     }
   }
 
+  /** Draw all shapes of a link in one material. */
+  paint(materialOf: (link: string) => THREE.Material): void {
+    for (const [name, { visuals, collisions }] of this.links) {
+      const material = materialOf(name);
+      for (const shapes of [visuals, collisions]) {
+        shapes.traverse((part) => part instanceof THREE.Mesh && (part.material = material));
+      }
+    }
+  }
+
+  isShown(link: string): boolean {
+    return this.group(link).visible;
+  }
+
+  has(link: string): boolean {
+    return this.links.has(link);
+  }
+
   /** Highlight one link, or none. */
   select(link: string | null): void {
     for (const [mesh, material] of this.plain) {

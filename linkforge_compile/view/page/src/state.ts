@@ -7,7 +7,10 @@ export type Layer = (typeof LAYERS)[number];
 
 const FIRST_LAYERS: readonly Layer[] = ["visuals", "grid"];
 
-export type Change = "scene" | "positions" | "layers" | "selection" | "hidden" | "search" | "units" | "live";
+/** The robots of a comparison. */
+export type Side = "before" | "after";
+
+export type Change = "scene" | "positions" | "layers" | "sides" | "selection" | "hidden" | "search" | "units" | "live";
 type Listener = (change: Change) => void;
 
 export interface Problem extends Partial<Omit<Place, "file">> {
@@ -61,6 +64,7 @@ export class State {
   #positions: Positions;
   #layers: ReadonlySet<Layer>;
   #hidden: ReadonlySet<string> = new Set();
+  #sides: ReadonlySet<Side> = new Set(["before", "after"]);
   #selected: string | null = null;
   #search = "";
   #isInDegrees = true;
@@ -98,6 +102,11 @@ export class State {
   /** Names of the links that are not drawn. */
   get hidden(): ReadonlySet<string> {
     return this.#hidden;
+  }
+
+  /** Which robots of a comparison are drawn. */
+  get sides(): ReadonlySet<Side> {
+    return this.#sides;
   }
 
   /** The name of the selected link. */
@@ -139,6 +148,11 @@ export class State {
   setLayer(layer: Layer, isShown: boolean): void {
     this.#layers = changed(this.#layers, layer, isShown);
     this.#tell("layers");
+  }
+
+  showSide(side: Side, isShown: boolean): void {
+    this.#sides = changed(this.#sides, side, isShown);
+    this.#tell("sides");
   }
 
   hide(links: readonly string[], isHidden: boolean): void {

@@ -74,11 +74,11 @@ export class Viewport {
 
   /** The lights turn with the camera, so that no side is dark. */
   private addLights(): void {
-    const [key, fill] = [new THREE.DirectionalLight(0xffffff, 2.4), new THREE.DirectionalLight(0xdfe9ff, 0.6)];
+    const [key, fill] = [new THREE.DirectionalLight(0xffffff, 2.0), new THREE.DirectionalLight(0xdfe9ff, 0.6)];
     key.position.set(-0.6, 1, 0.8);
     fill.position.set(1, 0.1, 0.6);
     for (const light of [key, fill]) this.camera.add(light, light.target);
-    const sky = new THREE.HemisphereLight(0xffffff, 0xc4c8d0, 1.8);
+    const sky = new THREE.HemisphereLight(0xffffff, 0xc4c8d0, 1.4);
     sky.position.set(0, 0, 1);
     this.scene.add(sky, this.camera);
   }

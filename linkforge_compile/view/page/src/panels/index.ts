@@ -3,6 +3,7 @@ import { keepInAddress } from "../fragment";
 import { listen } from "../live";
 import type { State } from "../state";
 import { makeDetails } from "./details";
+import { makeChanges } from "./changes";
 import { make, makeButton } from "./elements";
 import { makeJoints } from "./joints";
 import { listenToKeys, makeHelp, makeKeys } from "./keys";
@@ -27,7 +28,8 @@ export function mountPanels(state: State, actions: Actions): void {
   const help = makeHelp(keys);
   listenToKeys(keys);
   const left = make("aside", { id: "left", ariaLabel: "tree" }, makeTree(state), makeDetails(state));
-  const settings = state.scene.live ? [makeParameters(state)] : [];
+  const { live, comparison } = state.scene;
+  const settings = [...(live ? [makeParameters(state)] : []), ...(comparison ? [makeChanges(comparison, state)] : [])];
   const right = make("aside", { id: "right", ariaLabel: "joints" }, ...settings, makePoses(state), makeJoints(state));
   const over = make("div", { id: "over" }, makeLayers(state), makeProblems(state));
   const bar = makeBar(state, search, actions, help);
