@@ -134,7 +134,7 @@ function makeInput(parameter: Parameter, set: (text: string) => void): HTMLInput
     const select = make("select", { name, onchange: () => set(select.value) }, ...options);
     return select;
   }
-  if (parameter.type === "bool") {
+  if (parameter.type === "boolean") {
     const box = make("input", { type: "checkbox", name, onchange: () => set(String(box.checked)) });
     return box;
   }
@@ -145,7 +145,7 @@ function makeInput(parameter: Parameter, set: (text: string) => void): HTMLInput
 
 function makeSlider(parameter: Parameter, set: (text: string) => void): HTMLInputElement {
   const { name, minimum, maximum } = parameter;
-  const isWhole = parameter.type === "int" || parameter.type === "integer";
+  const isWhole = parameter.type === "integer";
   const range = { min: String(minimum), max: String(maximum), step: isWhole ? "1" : "any" };
   const slider = make("input", { type: "range", ariaLabel: `${name}, slider`, ...range });
   slider.oninput = () => set(withUnit(Number(slider.valueAsNumber.toPrecision(4)), parameter.unit));
