@@ -16,6 +16,7 @@ from pygls.lsp.server import LanguageServer
 
 from linkforge_compile._version import __version__
 from linkforge_compile.analysis import analyse_path
+from linkforge_compile.lsp.changes import workspace_edit
 from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import Columns, path_of
@@ -26,7 +27,8 @@ from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.hover import hover
 from linkforge_compile.lsp.inlay_hints import HintOptions, inlay_hints
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
-from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.rename import rename
+from linkforge_compile.lsp.renaming import RefusedError, renamed_at
 from linkforge_compile.lsp.semantic_tokens import LEGEND, semantic_tokens
 from linkforge_compile.lsp.symbols import find_symbols, outline
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users, is_part
@@ -277,12 +279,18 @@ def _add_rename(server: SpecServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def _rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
+        generation = server.specs.generation
         document = await server.analysed_with_users(params.text_document.uri)
         if document is None:
             return None
         at, settings = document.place(params.position), server.specs.settings()
         with _refusals():
-            return await server.in_thread(partial(rename, document, at, params.new_name, settings))
+            edits = await server.in_thread(partial(rename, document, at, params.new_name, settings, server.folders))
+            if generation != server.specs.generation:
+                raise RefusedError("the workspace changed meanwhile; try again")
+        return (
+            workspace_edit(edits, server.specs.versions, server.columns, server.client_capabilities) if edits else None
+        )
 
 
 def _add_hover(server: SpecServer) -> None:
