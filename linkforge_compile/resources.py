@@ -48,6 +48,12 @@ def manual_folder() -> Path:
     return _packed() / "diagnostics" if _packed().is_dir() else data_folder() / "docs" / "diagnostics"
 
 
+def view_page_file() -> Path:
+    """Return the page of the viewer; a checkout has one once npm has built it."""
+    name = "view.html"
+    return _packed() / name if _packed().is_dir() else Path(__file__).parent / "view" / "page" / "out" / name
+
+
 def matcher_file() -> Path:
     """Return the problem matcher of GitHub Actions."""
     name = "linkforge-matcher.json"

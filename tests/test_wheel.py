@@ -64,6 +64,15 @@ def test_every_template_is_in_the_wheel_compiled(wheel: Path):
     assert not any("_build_hook" in name for name in packed)
 
 
+def test_the_page_of_the_viewer_is_in_the_wheel_without_its_sources(wheel: Path):
+    packed = zipfile.ZipFile(wheel)
+    names = packed.namelist()
+    page = packed.read("linkforge_compile/_data/view.html").decode()
+    assert '<script id="scene" type="application/json">null</script>' in page
+    assert "three.js authors" in page  # their licence
+    assert not any("node_modules" in name or name.startswith("linkforge_compile/view/page") for name in names)
+
+
 def built_by_hatchling(source: Path, target: str, folder: Path) -> Path:
     """Return what the build backend makes of a source tree: its wheel or sdist."""
     build = (sys.executable, "-m", "hatchling", "build", "--target", target, "--directory", str(folder))
@@ -78,6 +87,9 @@ def test_the_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path):
         archive.extractall(tmp_path / "source", filter="data")
     (source,) = (tmp_path / "source").iterdir()
     assert (source / "linkforge_compile" / "_build_hook.py").is_file()
+    page = source / "linkforge_compile" / "view" / "page"
+    assert (page / "out" / "view.html").is_file()
+    assert not (page / "node_modules").exists()
     assert built_by_hatchling(source, "wheel", tmp_path / "wheel").read_bytes() == wheel.read_bytes()
 
 

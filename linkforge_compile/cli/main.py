@@ -28,6 +28,7 @@ COMMANDS = {
     "params": "list the parameters and variants of a spec",
     "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
     "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
+    "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
     "collisions": "find the pairs of links that need no check for collisions, by sampling",

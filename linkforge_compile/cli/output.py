@@ -48,6 +48,13 @@ def write_document(text: str, path: Path | None, arguments: argparse.Namespace) 
         print_status(f"wrote {path}" if write_if_changed(path, text) else f"{path} is up to date", arguments)
 
 
+def json_text(document: object) -> str:
+    """Return a document for tools, as all commands print JSON."""
+    import json
+
+    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+
+
 def write_json(text: str, output: str | None, arguments: argparse.Namespace) -> None:
     """Write JSON as `write_document` does; UsageError if the file of `-o` does not end in .json."""
     path = file_to_write(output)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TextIO, TypeVar
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics import Code, Diagnostic, Severity
 from linkforge_compile.diagnostics.codes import OUTPUT_CODES
+from linkforge_compile.diagnostics.terminal import BOLD, CYAN, RESET
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
@@ -31,8 +32,6 @@ ANY_CODE = "LF"
 """How all codes begin."""
 
 _Item = TypeVar("_Item")
-
-_BOLD, _CYAN, _RESET = "\033[1m", "\033[36m", "\033[0m"
 
 
 def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = False) -> None:
@@ -303,8 +302,8 @@ def _styled(text: str) -> Iterator[str]:
             if file:
                 yield f"{file}:"
         elif is_example:
-            yield f"    {_CYAN}{line}{_RESET}" if line else ""
+            yield f"    {CYAN}{line}{RESET}" if line else ""
         elif line.startswith("#"):
-            yield f"{_BOLD}{line.lstrip('#').lstrip()}{_RESET}"
+            yield f"{BOLD}{line.lstrip('#').lstrip()}{RESET}"
         else:
-            yield re.sub(r"`([^`]+)`", rf"{_CYAN}\1{_RESET}", line)
+            yield re.sub(r"`([^`]+)`", rf"{CYAN}\1{RESET}", line)

@@ -38,21 +38,18 @@ class Shape(NamedTuple):
 class Motion(NamedTuple):
     """How a joint with one degree of freedom moves; positions are [rad], or [m] unless `is_turning`.
 
-    A joint that follows another one is at `multiplier` times the position of body `leader`, plus `offset`.
+    `default` is that of MoveIt's default pose. A joint that follows another one is at `multiplier` times the position
+    of body `leader`, plus `offset`.
     """
 
     is_turning: bool
     axis: Triple
     lower: float
     upper: float
+    default: float
     leader: int | None = None
     multiplier: float = 1.0
     offset: float = 0.0
-
-    @property
-    def default(self) -> float:
-        """The position in MoveIt's default pose: 0, or the middle of the limits if they exclude it."""
-        return 0.0 if self.lower <= 0.0 <= self.upper else (self.lower + self.upper) / 2
 
 
 class Body(NamedTuple):
@@ -92,19 +89,12 @@ def make_scene(robot: Robot, paths: Mapping[str, Path]) -> Scene:
 def _motion(joint: Joint, places: Mapping[str, int]) -> Motion | None:
     if joint.axis is None or joint.type in UNBOUNDED:
         return None
-    lower, upper = _range(joint)
-    motion = Motion(joint.type != JointType.PRISMATIC, joint.axis.to_tuple(), lower, upper)
+    is_turning, (lower, upper) = joint.type != JointType.PRISMATIC, joint.bounds or (-math.pi, math.pi)
+    motion = Motion(is_turning, joint.axis.to_tuple(), lower, upper, joint.default_position)
     if joint.mimic is None:
         return motion
     leader = places.get(joint.mimic.joint)
     return motion._replace(leader=leader, multiplier=joint.mimic.multiplier, offset=joint.mimic.offset)
-
-
-def _range(joint: Joint) -> tuple[float, float]:
-    if joint.type == JointType.CONTINUOUS or joint.limits is None:
-        return -math.pi, math.pi
-    # Readers of URDF take 0 for a limit that is not written.
-    return joint.limits.lower or 0.0, joint.limits.upper or 0.0
 
 
 def _pose(origin: Transform) -> Pose:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from unicodedata import combining, east_asian_width
 
 from linkforge_compile.diagnostics.diagnostic import Diagnostic, Note, Severity
+from linkforge_compile.diagnostics.terminal import BOLD, RESET, width_of
 from linkforge_compile.source import Span
 
 _COLOURS = {Severity.ERROR: "\033[1;31m", Severity.WARNING: "\033[1;33m", Severity.NOTE: "\033[1;36m"}
-_BOLD, _RESET = "\033[1m", "\033[0m"
 
 # A spec generated on one line, or a list of a thousand numbers, must not fill the screen.
 _WIDEST_LINE = 160
@@ -93,7 +92,7 @@ def _headline(span: Span | None, severity: Severity, message: str, colour: bool)
     place = f"{span}: " if span else ""
     if not colour:
         return f"{place}{severity}: {message}"
-    return f"{_BOLD}{place}{_COLOURS[severity]}{severity}:{_RESET}{_BOLD} {message}{_RESET}"
+    return f"{BOLD}{place}{_COLOURS[severity]}{severity}:{RESET}{BOLD} {message}{RESET}"
 
 
 def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
@@ -112,21 +111,14 @@ def snippet(span: Span | None, colour: str = "") -> Iterator[str]:
         start, end = (place - cut + bool(cut) for place in (start, end))
     number = str(span.line)
     marked = line[start : min(end, len(line))]
-    caret = "^" * max(1, sum(_cells(char) for char in marked))
+    caret = "^" * max(1, width_of(marked))
     yield f" {number:>5} | {_visible(line)}"
-    yield f" {'':>5} | {_padding(line[:start])}{colour}{caret}{_RESET if colour else ''}"
-
-
-def _cells(char: str) -> int:
-    """Return how many columns of a terminal a character fills; 0 for a combining accent."""
-    if combining(char):
-        return 0
-    return 2 if east_asian_width(char) in "WF" else 1
+    yield f" {'':>5} | {_padding(line[:start])}{colour}{caret}{RESET if colour else ''}"
 
 
 def _padding(text: str) -> str:
     """Return white space as wide as `text`; tabs stay tabs, and a wide character gives two spaces."""
-    return "".join("\t" if char == "\t" else " " * _cells(char) for char in text)
+    return "".join("\t" if char == "\t" else " " * width_of(char) for char in text)
 
 
 def _visible(line: str) -> str:

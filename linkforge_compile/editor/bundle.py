@@ -145,7 +145,7 @@ class _EditorForm:
 _UNITS_OF_A_NUMBER = re.compile(r"a number \[([^]]+)\]")
 """The SI units of a bare number in the message about a quantity: "kg", or "N*m or N"."""
 
-_ANY_UNIT = "[A-Za-zµμ°]\\S*"
+_ANY_UNIT = "[A-Za-zµμ°º˚]\\S*"
 
 
 def _pattern_with_units(pattern: str, si_units: list[str]) -> str:

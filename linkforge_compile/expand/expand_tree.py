@@ -312,7 +312,7 @@ def _is_valid_for(names: YamlMap, key: YamlScalar | None, evaluator: Evaluator) 
             faults.append(INVALID_VARIABLE_NAME.at(entry.key.span, name=entry.name, kind="value of 'for'"))
         elif entry.name in RESERVED_NAMES:
             faults.append(RESERVED_NAME.at(entry.key.span, name=entry.name, kind="value of 'for'"))
-        elif entry.name in evaluator.scope:
+        elif entry.name in set(evaluator.scope):  # `in` the scope is what a faulty section may declare, too
             faults.append(FOR_NAME_TAKEN.at(entry.key.span, name=entry.name))
     if key is not None and not faults:
         if evaluator.sink.has_error_in(key.span):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
+from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_depth_first, walk_down
 from linkforge_compile.core.models.joint import Joint, JointType
 
 if TYPE_CHECKING:
@@ -37,16 +37,14 @@ class KinematicTree(NamedTuple):
 
     @classmethod
     def of(cls, robot: Robot) -> KinematicTree:
-        above, below = parent_joints(robot.joints), child_joints(robot.joints)
-        open_nodes = [Node(link, None, 0) for link in reversed(robot.links) if link.name not in above]
-        nodes: list[Node] = []
-        while open_nodes:
-            node = open_nodes.pop()
-            nodes.append(node)
-            depth = node.depth + (node.link.name != WORLD)
-            for joint in reversed(below.get(node.link.name, ())):
-                if above[joint.child] is joint and robot.has_link(joint.child):
-                    open_nodes.append(Node(robot.links[joint.child], joint, depth))
+        above = parent_joints(robot.joints)
+        below = child_joints(joint for joint in above.values() if robot.has_link(joint.child))
+        roots = [link.name for link in robot.links if link.name not in above]
+        nodes, in_world = [], 0
+        for visit in walk_depth_first(roots, below):
+            if visit.joint is None:
+                in_world = int(visit.link == WORLD)
+            nodes.append(Node(robot.links[visit.link], visit.joint, max(visit.depth - in_world, 0)))
         return cls(nodes, above, child_joints(fixed_joints(robot)))
 
     def depth(self) -> int:

@@ -149,8 +149,9 @@ def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
     if name is None:
         return None
     if name not in scope.materials and name not in scope.unresolved_materials:
-        hint = "" if nearest(name, scope.materials) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
-        visual.report(UNKNOWN_MATERIAL, node, near=scope.materials, name=name, hint=hint)
+        known = {*scope.materials, *scope.unresolved_materials.names}
+        hint = "" if nearest(name, known) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
+        visual.report(UNKNOWN_MATERIAL, node, near=sorted(known), name=name, hint=hint)
     return scope.materials.get(name)
 
 

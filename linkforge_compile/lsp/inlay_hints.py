@@ -8,11 +8,11 @@ from typing import NamedTuple
 from lsprotocol import types
 
 from linkforge_compile.export_spec.explain import computed_from
-from linkforge_compile.lsp.hover.parts import short
 from linkforge_compile.lsp.hover.values import in_si_of
 from linkforge_compile.lsp.occurrences import DECLARING
 from linkforge_compile.lsp.placed import Placed, placed_in
 from linkforge_compile.lsp.workspace import Document
+from linkforge_compile.overview.joint_text import short
 from linkforge_compile.source import Position, Span
 
 _MAX_SHOWN = 3

@@ -33,6 +33,7 @@ from linkforge_compile.schema.shapes import (
     found,
     is_text,
     node_at,
+    shape_at,
     shape_of,
     shapes,
     shortened,
@@ -42,7 +43,7 @@ from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import code_point
 from linkforge_compile.source.provenance import aliases_of, join_links
 from linkforge_compile.syntax.entries import STUCK
-from linkforge_compile.syntax.fixes import replace_like_spaces, space_after_colon
+from linkforge_compile.syntax.fixes import replace_like_spaces, space_after_colon, space_after_dash
 from linkforge_compile.syntax.nodes import (
     YamlEntry,
     YamlFault,
@@ -208,7 +209,18 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         if space_like := find_like_space(first):
             fault = TAB_INDENTATION.at(space_like, found=f"{code_point(space_like.text or '')}, which looks like one")
             fault = fault.with_fix(replace_like_spaces(space_like.file, [entry.key.span.line for entry in entries]))
+        if _is_list_without_spaces(mismatch):
+            fault = space_after_dash(first.key.span, first.name)
         yield Finding(fault, (*path, first.name), tuple((*path, other.name) for other in others))
+
+
+def _is_list_without_spaces(mismatch: SchemaMismatch) -> bool:
+    """Whether a map in place of a list has only keys such as `-box`."""
+    node, shape = mismatch.node, shape_at(mismatch.path)
+    is_stuck = isinstance(node, YamlMap) and all(
+        entry.name.startswith("-") and entry.name[1:] in shape.keys for entry in node
+    )
+    return is_stuck and shape.item is not None
 
 
 def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:

@@ -20,17 +20,17 @@ from linkforge_compile.schema.number_texts import (
     numbers_in_row,
 )
 from linkforge_compile.schema.shapes import (
-    FREE,
     SchemaMismatch,
     expected,
     is_number,
     is_text,
     nested,
     node_at,
-    shapes,
+    shape_at,
     shown,
     split_path,
 )
+from linkforge_compile.schema.srdf_habits import srdf_entry
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -44,11 +44,13 @@ class Hint(NamedTuple):
     """The text to write for the value, "" if something else has to change."""
     is_safe: bool = False
     """Whether nothing else can be intended."""
+    around: Span | None = None
+    """The span to write it to, if that is more than the value."""
 
     def fix(self, span: Span) -> Fix | None:
         """Return the fix of the value at a span; None if there is none, or if a part of it is not shown."""
         is_whole = self.value != "" and "…" not in self.value
-        return Replacement("", self.value, self.is_safe).within(span) if is_whole else None
+        return Replacement("", self.value, self.is_safe).within(self.around or span) if is_whole else None
 
 
 _NO_HINT = Hint()
@@ -148,14 +150,18 @@ def _row(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
 
 def _list_around(mismatch: SchemaMismatch) -> Hint:
     """The whole list of an item that holds several numbers, or a part of one."""
-    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shapes()
-    for key in mismatch.path[:-1]:
-        shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
+    around, shape = node_at(mismatch.file, mismatch.path[:-1]), shape_at(mismatch.path[:-1])
     if not isinstance(around, YamlList) or len(around) > MOST_ITEMS:
         return _NO_HINT
     parts = [f"{',' if _is_adjacent(before, item) else ', '}{shown(item)}" for before, item in pairwise(around)]
     numbers = numbers_in_row("".join((*map(shown, around.items[:1]), *parts)), list_lengths(shape.schema))
-    return _change(_field_with(mismatch.path[-2], _as_list(numbers))) if numbers else _NO_HINT
+    if not numbers:
+        return _NO_HINT
+    value = _as_list(numbers)
+    change = _change(_field_with(mismatch.path[-2], value))
+    is_in_brackets = (around.span.text or "").startswith("[")
+    # Of several items, a comma may be that of a decimal number.
+    return change._replace(value=value, is_safe=len(around) == 1, around=around.span) if is_in_brackets else change
 
 
 def _number(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
@@ -254,10 +260,12 @@ def _entries_by_name(node: YamlList, mismatch: SchemaMismatch) -> Hint:
     """A list in place of a map keyed by names."""
     if not any(isinstance(branch.get("additionalProperties"), dict) for branch in branches(mismatch.schema)):
         return _NO_HINT
+    if mismatch.path[:-1] == ("semantic",) and (entry := srdf_entry(mismatch.field, node)):
+        return _change(f"each entry without '-', such as '{entry}'")
     first: YamlNode | None = next(iter(node), None)
     if isinstance(first, YamlMap):
         only_key = next(iter(first)).key if len(first) == 1 else None
-        first = first.get("group" if mismatch.field == "group_states" else "name") or only_key
+        first = first.get("name") or only_key
     name = first.text if isinstance(first, YamlScalar) else "NAME"
     return _change(f"each entry under its name, without '-': '{name}: …'")
 
@@ -283,7 +291,7 @@ def _axes(node: YamlMap, mismatch: SchemaMismatch) -> Hint:
 def _attribute(node: YamlMap, mismatch: SchemaMismatch) -> Hint:
     """An element of URDF with its only attribute, `{link: base}`."""
     only = next(iter(node)) if len(node) == 1 else None
-    if only is None or only.name not in ("link", "value", "name", "joint", "xyz", "rgba", "size"):
+    if only is None or only.name not in ("link", "value", "name", "joint", "xyz", "rgba", "size", "filename"):
         return _NO_HINT
     if isinstance(only.value, YamlScalar):
         numbers = numbers_in_row(only.value.text, list_lengths(mismatch.schema))

@@ -30,6 +30,7 @@ from linkforge_compile.schema.shapes import (
     shown,
     split_path,
 )
+from linkforge_compile.schema.srdf_habits import srdf_hint
 from linkforge_compile.source import Span
 from linkforge_compile.source.characters import LIKE_SPACES
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar, is_null
@@ -130,7 +131,7 @@ def _hint(entry: YamlEntry, node: YamlMap, schema: Schema) -> tuple[str, Sequenc
 def _table_hint(entry: YamlEntry, schema: Schema) -> str:
     """Return the hint of the table, or for a path in one key: `limits/effort`."""
     owner, name = str(schema["title"]), entry.name
-    if hint := number_of_list_hint(owner, name) or known_key_hint(owner, name):
+    if hint := number_of_list_hint(owner, name) or known_key_hint(owner, name) or srdf_hint(owner, entry):
         return hint
     first, *steps = split_path(name)
     is_path = first in mapping(schema.get("properties", {})) and steps and all(steps)

@@ -337,3 +337,11 @@ def node_at(tree: YamlNode, path: Path) -> YamlNode | None:
     for key in path:
         node = node.child(key) if node else None
     return node
+
+
+def shape_at(path: Path) -> Shape:
+    """Return the shape of what is at a path of a file."""
+    shape = shapes()
+    for key in path:
+        shape = shape.under(key) if isinstance(key, str) else shape.item or FREE
+    return shape

@@ -133,7 +133,7 @@ _SPELLINGS = {
 """Other accepted spellings; products may also be written with a dot, powers as superscripts."""
 
 _WORDS = {
-    "deg": ("degree", "degrees", "degs"),
+    "deg": ("degree", "degrees", "degs", "\u00ba", "\u02da"),  # an ordinal indicator and a ring, which look like °
     "rad": ("radian", "radians"),
     "rev": ("turn", "turns", "revolution", "revolutions"),
     "m": ("meter", "meters", "metre", "metres"),
@@ -161,7 +161,7 @@ _UNITS_BY_WORD = {word: UNITS[name] for name, words in _WORDS.items() for word i
 
 # The number of digits is bounded: the integer 1e999999999 would fill the memory.
 _QUANTITY = re.compile(
-    r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°][^\s]*)"
+    r"([+-]?(?:[0-9]{1,400}(?:\.[0-9]{0,400})?|\.[0-9]{1,400})(?:[eE][+-]?[0-9]{1,3})?)\s*([A-Za-zµμ°\u00ba\u02da][^\s]*)"
 )
 _PLAIN = str.maketrans({"·": "*", "⋅": "*", "²": "^2", "³": "^3"})
 

@@ -123,7 +123,7 @@ def test_a_spec_that_is_saved_while_it_is_checked_is_checked_again(
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (("--format", "json"), "--watch prints text for people, found --diagnostics json"),
+        (("--format", "json"), "--watch prints text for people, not json"),
         (("--fix",), "takes --watch or --fix, not both: a file would change while it is edited"),
         (("-",), "--watch takes files, not standard input"),
         (("--variant", "a", "--all-variants"), "takes --variant or --all-variants, not both"),

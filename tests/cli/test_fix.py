@@ -41,6 +41,43 @@ def test_without_the_option_nothing_is_written(tmp_path: Path):
     assert spec.read_bytes().decode() == FAULTY
 
 
+SLIPS = """\
+linkforge: 1
+name: case
+links:
+  base:
+    visual:
+      -box: [1, 1, 1]
+  arm: {visual: [box: [1, 1, 1]]}
+joints:
+  elbow:
+    type: hinge
+    parent_link: base
+    child_link: arm
+    axis: [0 0 1]
+    limit: {min: 0, max: 1, torque: 3, speed: 4}
+"""
+
+
+def test_slips_of_docs_that_call_them_safe_are_fixed_at_once(tmp_path: Path):
+    spec = write(tmp_path / "slips.robot.yaml", SLIPS)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert run.stderr.splitlines() == ["fixed 10 problems in slips.robot.yaml", "checked 1 spec: no errors"]
+    limits = "limits: {lower: 0, upper: 1, effort: 3, velocity: 4}"
+    expected = (
+        SLIPS.replace("-box", "- box").replace("_link", "").replace("hinge", "revolute").replace("0 0 1", "0, 0, 1")
+    )
+    assert spec.read_text() == expected.replace("limit: {min: 0, max: 1, torque: 3, speed: 4}", limits)
+
+
+def test_tabs_below_spaces_are_left(tmp_path: Path):
+    text = "linkforge: 1\nname: case\nlinks:\n  base:\n\ttip:\n"
+    spec = write(tmp_path / "tabs.robot.yaml", text)
+    run = linkforge("check", "--fix", cwd=tmp_path)
+    assert "YAML is indented with spaces, found a tab [LF1002]" in run.stderr
+    assert spec.read_text() == text
+
+
 def test_what_is_not_certain_is_left_and_reported(tmp_path: Path):
     text = FAULTY.replace("child:arm", "child: amr").replace("Fixed", "fixed").replace("${height}", "$(hight)")
     spec = write(tmp_path / "faulty.robot.yaml", text)

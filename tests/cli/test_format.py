@@ -34,6 +34,15 @@ def test_the_specs_below_a_folder_are_formatted(folder: Path):
     assert linkforge("format", cwd=folder).stderr == "2 files unchanged\n"
 
 
+def test_files_with_errors_are_counted(folder: Path):
+    (folder / "broken.robot.yaml").write_text("links: {base: \n")
+    checked = linkforge("format", "--check", cwd=folder)
+    assert checked.stderr.splitlines()[-1] == "1 file would change, 1 unchanged, 1 with errors"
+    assert linkforge("format", cwd=folder).stderr.endswith("\n1 file formatted, 1 unchanged, 1 with errors\n")
+    run = linkforge("format", cwd=folder)
+    assert (run.returncode, run.stderr.splitlines()[-1]) == (1, "2 files unchanged, 1 with errors")
+
+
 def test_a_file_that_is_formatted_is_not_touched(folder: Path):
     leg = folder / "parts" / "leg.robot.yaml"
     before = leg.stat()

@@ -286,20 +286,36 @@ joints:
     assert (joint["type"], [sensor["name"] for sensor in joint["sensors"]]) == ("fixed", ["wrench"])
 
 
-def test_a_raw_sensor_in_a_joint_that_is_a_frame_is_on_its_link(tmp_path: Path):
-    """Gazebo Sim has no sensors but those of forces in joints."""
-    text = """
-links: {base: {inertial: *unit}, mast: }
+RAW_IN_JOINT = """
+links: {base: {inertial: *unit}, mast: MAST}
 joints:
   up: {type: fixed, parent: base, child: mast, origin: {xyz: [0, 0, 1], rpy: [0, 0, 90 deg]}}
 gazebo:
-  - {reference: up, extra: "<sensor name='imu' type='imu'><pose>1 0 0 0 0 0</pose></sensor>"}
+  - reference: up
+    extra:
+      - <sensor name='imu' type='imu'><pose>1 0 0 0 0 0</pose></sensor>
 """
+
+
+def test_a_raw_sensor_in_a_joint_that_is_a_frame_is_on_its_link(tmp_path: Path):
+    """Gazebo Sim has no sensors but those of forces in joints."""
+    text = RAW_IN_JOINT.replace("MAST", "")
     assert reported(text) == []
     found = read(text, tmp_path)
     assert list(found.links) == ["base"]
     (sensor,) = found.links["base"]["sensors"]
     assert sensor["pose"][:3] == pytest.approx([0, 1, 1])
+
+
+@pytest.mark.parametrize("of_joint", ["type: fixed", "type: continuous, axis: z"])
+def test_a_raw_sensor_in_a_joint_is_on_the_link_below_it_at_the_same_place(tmp_path: Path, of_joint: str):
+    text = RAW_IN_JOINT.replace("MAST", "{inertial: *unit}").replace("type: fixed", of_joint)
+    wrench = "      - <sensor name='wrench' type='force_torque'/>\n"
+    assert reported(text + wrench) == []
+    found = read(text + wrench, tmp_path)
+    (imu,) = found.links["mast"]["sensors"]
+    assert (imu["name"], imu["pose"][:3]) == ("imu", pytest.approx([0, 1, 1]))
+    assert [sensor["name"] for sensor in found.joints["up"]["sensors"]] == ["wrench"]
 
 
 RAW_SENSORS = """

@@ -168,7 +168,7 @@ PATTERNS = sorted(set(patterns_in(whole_schema())))
 @cache
 def characters() -> list[str]:
     """Return all that may be a space or a digit to one of the engines, and some others."""
-    odd = "µμ°é\N{ZERO WIDTH SPACE}"
+    odd = "µμ°º˚é\N{ZERO WIDTH SPACE}"
     every = map(chr, range(sys.maxunicode + 1))
     looked_at = (one for one in every if one.isascii() or one.isspace() or one.isdecimal() or one in odd)
     return [one for one in looked_at if not FORBIDDEN_CHARACTER.match(one)]

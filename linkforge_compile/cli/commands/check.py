@@ -91,7 +91,7 @@ def _watch(arguments: argparse.Namespace) -> NoReturn:
     from linkforge_compile.file_watcher import FileWatcher
 
     if arguments.diagnostics != "text":
-        raise UsageError(f"--watch prints text for people, found --diagnostics {arguments.diagnostics}")
+        raise UsageError(f"--watch prints text for people, not {arguments.diagnostics}")
     if arguments.fix:
         raise UsageError("takes --watch or --fix, not both: a file would change while it is edited")
     words = split_assignments(arguments.words)[0] or ["."]
@@ -116,6 +116,7 @@ def _check_all(arguments: argparse.Namespace) -> _Report:
     """Check all specs and print the report."""
     words, assignments = split_assignments(arguments.words)
     found = _find_specs(words, arguments)
+    _refuse_options_of_each_other(arguments, found)
 
     def check(buffers: Mapping[str, str]) -> _Report:
         checks = {spec: _merge_runs(_check(spec, assignments, arguments, buffers)) for spec in found.specs}
@@ -132,11 +133,15 @@ def _check_all(arguments: argparse.Namespace) -> _Report:
 
 
 def _find_specs(words: Sequence[str], arguments: argparse.Namespace) -> FoundSpecs:
-    """Return the specs to check; UsageError for options that do not go with each other or with these specs."""
+    """Return the specs to check; UsageError for formats in place of specs, and for options of other formats."""
     refuse_formats_as_specs(words, "--for")
     requested = [one.name for one in formats_or_default(arguments.formats)]
     refuse_options_of_other_formats(arguments, requested, "--for")
-    found = find_specs_of(words or ["."], arguments)
+    return find_specs_of(words or ["."], arguments)
+
+
+def _refuse_options_of_each_other(arguments: argparse.Namespace, found: FoundSpecs) -> None:
+    """Raise UsageError for options that do not go with each other, or with standard input."""
     if arguments.all_variants and arguments.variants:
         raise UsageError("takes --variant or --all-variants, not both")
     if arguments.all_variants and "-" in found.specs:
@@ -147,7 +152,6 @@ def _find_specs(words: Sequence[str], arguments: argparse.Namespace) -> FoundSpe
         raise UsageError("--fix takes files, not standard input")
     if arguments.diff and (not arguments.fix or arguments.diagnostics != "text"):
         raise UsageError("--diff shows what --fix would change, and takes no other --format than text")
-    return found
 
 
 def _report_of(checks: Mapping[str, _Check], faults: Iterable[Diagnostic], arguments: argparse.Namespace) -> _Report:

@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         write_to_stdout("".join(unified(one.shown, one.text, text, "formatted") for one, text in changed.items()))
     elif not arguments.check:
         _write(formatted)
-    _print_status(formatted, changed, arguments)
+    _print_status(formatted, changed, len(found.specs) - len(formatted), arguments)
     return FAULTY_SPEC if has_errors or (arguments.check and changed) else OK
 
 
@@ -100,9 +100,12 @@ def _write(formatted: Mapping[SourceFile, str]) -> None:
 
 
 def _print_status(
-    formatted: Collection[SourceFile], changed: Collection[SourceFile], arguments: argparse.Namespace
+    formatted: Collection[SourceFile], changed: Collection[SourceFile], faulty: int, arguments: argparse.Namespace
 ) -> None:
-    """Print which files change, and how many do not; what fails `--check` is printed with `--quiet` too."""
+    """Print which files change, and how many do not; what fails `--check` is printed with `--quiet` too.
+
+    `faulty` is how many files have errors that keep them from being formatted.
+    """
     writes = not (arguments.check or arguments.diff)
     for source in changed:
         if arguments.check:
@@ -112,4 +115,5 @@ def _print_status(
     if any(source.path for source in formatted):
         unchanged = len(formatted) - len(changed)
         done = f"{count(len(changed), 'file')} {'formatted' if writes else 'would change'}, {unchanged}"
-        print_status(f"{done if changed else count(unchanged, 'file')} unchanged", arguments)
+        errors = f", {faulty} with errors" if faulty else ""
+        print_status(f"{done if changed else count(unchanged, 'file')} unchanged{errors}", arguments)

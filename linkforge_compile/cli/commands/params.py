@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import add_outside_option, add_package_option, packages_of
 from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.diagnostics.terminal import align
 
 if TYPE_CHECKING:
     import argparse
@@ -49,7 +50,7 @@ def _lines(listing: Listing) -> Iterator[str]:
     yield ""
     if listing.parameters:
         rows = [("parameter", "type", "default", "limits", "description"), *map(_row, listing.parameters)]
-        yield from _aligned(rows)
+        yield from align(rows)
     else:
         yield "It has no parameters."
     if listing.variants:
@@ -58,7 +59,7 @@ def _lines(listing: Listing) -> Iterator[str]:
             name: ", ".join(f"{key}={value}" for key, value in variant.items())
             for name, variant in listing.variants.items()
         }
-        yield from _aligned([("variant", "sets"), *settings.items()])
+        yield from align([("variant", "sets"), *settings.items()])
 
 
 def _row(parameter: ListedParameter) -> tuple[str, ...]:
@@ -66,12 +67,6 @@ def _row(parameter: ListedParameter) -> tuple[str, ...]:
     if parameter.default is not None and parameter.computed not in {"", default}:
         default = f"{default} = {parameter.computed}"
     return parameter.name, parameter.type or "?", default, parameter.limits, " ".join(parameter.description.split())
-
-
-def _aligned(rows: list[tuple[str, ...]]) -> Iterator[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        yield "  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip()
 
 
 def _json_text(listing: Listing) -> str:

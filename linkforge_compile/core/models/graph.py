@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotValidationError, ValidationErrorCode
 from linkforge_compile.core.models.joint import Joint
@@ -47,6 +47,34 @@ def walk_down(links: Iterable[str], below: Mapping[str, Sequence[Joint]]) -> Ite
                 seen.add(joint.child)
                 reached.append(joint.child)
                 yield joint
+
+
+class Visit(NamedTuple):
+    """A link on a walk: the joint that leads to it, None where the walk starts, and how many joints are above it.
+
+    `is_again` for a link that the walk was at before, as a cycle and a second parent lead to it.
+    """
+
+    link: str
+    joint: Joint | None
+    depth: int
+    is_again: bool = False
+
+
+def walk_depth_first(starts: Iterable[str], below: Mapping[str, Sequence[Joint]]) -> Iterator[Visit]:
+    """Yield the starts that no other one led to, each with what is below it, branch after branch; each joint once."""
+    seen: set[str] = set()
+    for start in starts:
+        waiting = [] if start in seen else [Visit(start, None, 0)]
+        while waiting:
+            visit = waiting.pop()
+            if visit.link in seen:
+                yield visit._replace(is_again=True)
+                continue
+            seen.add(visit.link)
+            yield visit
+            joints = below.get(visit.link, ())
+            waiting.extend(Visit(joint.child, joint, visit.depth + 1) for joint in reversed(joints))
 
 
 def walk_up(link: str, parents: Mapping[str, str]) -> Iterator[str]:

@@ -284,3 +284,19 @@ class Joint(Element):
     def degrees_of_freedom(self) -> int:
         """How many numbers determine the pose of the child: 0 fixed, 1 for one axis, 2 planar, 6 floating."""
         return _DEGREES_OF_FREEDOM[self.type]
+
+    @property
+    def bounds(self) -> tuple[float, float] | None:
+        """The lowest and highest position [rad] or [m]; None for a joint without limits of its position.
+
+        Readers of URDF take 0 for a limit that is not written.
+        """
+        if self.type not in NEED_LIMITS or self.limits is None:
+            return None
+        return self.limits.lower or 0.0, self.limits.upper or 0.0
+
+    @property
+    def default_position(self) -> float:
+        """The position in MoveIt's default pose [rad] or [m]: 0, or the middle of the limits if they exclude it."""
+        lower, upper = self.bounds or (0.0, 0.0)
+        return 0.0 if lower <= 0.0 <= upper else (lower + upper) / 2

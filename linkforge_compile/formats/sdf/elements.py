@@ -10,7 +10,7 @@ from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped,
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.geometry import Transform
-    from linkforge_compile.formats.sdf.relative_pose import Pose
+    from linkforge_compile.core.poses import Pose
     from linkforge_compile.source import SourceRef
 
 

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
+from linkforge_compile.core.poses import NO_TURN
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
-from linkforge_compile.formats.sdf.relative_pose import NO_TURN, relative_pose
+from linkforge_compile.formats.sdf.relative_pose import relative_pose
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
 from linkforge_compile.formats.unique_name import unique_name
 
@@ -116,12 +117,15 @@ class Layout:
 
     @cached_property
     def settings(self) -> Mapping[str | None, Settings]:
-        """The settings of Gazebo; sensors of a joint that is a frame are those of the link below it, at that frame."""
+        """The settings of Gazebo; sensors of a joint are those of the link below it, which has the frame of the joint.
+
+        Force-torque sensors stay. SDF allows all others in joints as well, but Gazebo Sim moves only those of links.
+        """
         settings = dict(self.own_settings)
         for joint in self.robot.joints:
             own = settings.get(joint.name, ())
             sensors = [one for one in own if one.tag == "sensor" and not any(frames_of_forces(one))]
-            if sensors and not self.is_joint(joint):
+            if sensors:
                 settings[joint.name] = [one for one in own if one not in sensors]
                 settings[joint.child] = [*settings.get(joint.child, ()), *sensors]
         return settings

@@ -22,11 +22,12 @@ from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.lsp.occurrences import DECLARING, Occurrences
 from linkforge_compile.lsp.placed import is_malformed, uses_of
 from linkforge_compile.lsp.workspace import Document
+from linkforge_compile.overview.joint_text import short
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.descriptions import described_at
 from linkforge_compile.source import Position, Span
 from linkforge_compile.syntax import YamlMap, YamlNode
-from linkforge_compile.units import ACCELERATION, EFFORT, JERK, POSITION, SPEED, FieldUnit, number_text
+from linkforge_compile.units import ACCELERATION, EFFORT, JERK, POSITION, SPEED, FieldUnit
 
 _MAX_LINES = 20
 _SECTIONS = {kind: "/".join(path) for path, kind in DECLARING.items() if path != ("frames",)}
@@ -125,11 +126,6 @@ def _inertial(inertial: Inertial) -> list[str]:
         f"centre of mass [{', '.join(map(short, inertial.origin.xyz))}] m",
         f"inertia {', '.join((moments, *products))} kg·m²",
     ]
-
-
-def short(value: float) -> str:
-    """Return a number with six digits, which a person reads."""
-    return number_text(float(f"{value:.6g}"))
 
 
 def _joint(joint: Joint, robot: Robot) -> str:

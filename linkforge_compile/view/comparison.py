@@ -1,0 +1,85 @@
+"""Two robots over each other: the scene of the robot after, with that of the robot before and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from linkforge_compile.compare import Difference, Kind
+from linkforge_compile.view.files import RobotFiles, collect_files
+from linkforge_compile.view.scene import Scene, SceneDifference, make_scene
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+_STRENGTH = (Kind.CHANGED, Kind.RENAMED, Kind.MOVED, Kind.ADDED, Kind.REMOVED)
+"""Of several kinds of differences of a link, the last one here is shown."""
+
+
+def make_comparison(
+    before: Robot, after: Robot, labels: tuple[str, str], differences: Sequence[Difference]
+) -> tuple[Scene, RobotFiles]:
+    """Return the scene of two robots with the files of both.
+
+    `labels` are the names of the robots in headings, and `differences` are those of `compare`. What differs in a joint
+    is shown at its child link.
+    """
+    found = [_scene_difference(one, before, after) for one in differences]
+    # A file of the same name may have another content.
+    files_before, files = collect_files(before), collect_files(after)
+    scene_before, scene = make_scene(before, files_before), make_scene(after, files)
+    missing = [one for one in scene_before["missing"] if one not in scene["missing"]]
+    both: Scene = {
+        **scene,
+        "files": {**scene_before["files"], **scene["files"]},
+        "missing": [*scene["missing"], *missing],
+        "comparison": {
+            "before": {**scene_before, "files": {}, "missing": []},
+            "labels": labels,
+            "differences": found,
+            "kinds": _kinds(found),
+            "links": _renamed("links", differences),
+            "joints": _renamed("joints", differences),
+        },
+    }
+    return both, files._replace(files={**files_before.files, **files.files})
+
+
+def _scene_difference(difference: Difference, before: Robot, after: Robot) -> SceneDifference:
+    path = "/".join(difference.path)
+    return {
+        "kind": difference.kind,
+        "path": path,
+        "text": difference.text,
+        "link": _link(difference, before, after),
+        "is_whole": len(difference.path) == 2,
+    }
+
+
+def _link(difference: Difference, before: Robot, after: Robot) -> str | None:
+    """Return the link at which a difference is shown; None for one of another section."""
+    match difference.path:
+        case ("links", name, *_):
+            return name
+        case ("joints", name, *_):
+            owner = after if name in after.joints else before
+            return owner.joints[name].child if name in owner.joints else None
+    return None
+
+
+def _kinds(differences: Sequence[SceneDifference]) -> dict[str, str]:
+    """Return what happened to each link that differs; a part of a link that is new or gone changes the link."""
+    kinds: dict[str, Kind] = {}
+    for one in differences:
+        if (link := one["link"]) is None:
+            continue
+        is_of_link = one["is_whole"] and one["path"].startswith("links/")
+        kind = Kind(one["kind"]) if is_of_link else Kind.CHANGED
+        kinds[link] = max(kinds.get(link, kind), kind, key=_STRENGTH.index)
+    return {link: kind.value for link, kind in kinds.items()}
+
+
+def _renamed(section: str, differences: Sequence[Difference]) -> dict[str, str]:
+    """Return the new names of links or joints by the old ones."""
+    renamed = (one for one in differences if one.kind is Kind.RENAMED and one.path[0] == section)
+    return {str(one.before): one.path[1] for one in renamed}

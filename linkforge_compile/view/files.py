@@ -1,0 +1,165 @@
+"""The files that a robot's shapes are drawn from: meshes, and the materials, textures and buffers that they name.
+
+Each is read within the folders that the compile may read, and is known by a digest of its content. What cannot be shown
+is listed with the reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.checks.mesh_files import LFS_POINTER
+from linkforge_compile.core.models.geometry import Mesh
+from linkforge_compile.core.models.link import Visual
+from linkforge_compile.core.resolver import FileSystemResolver
+from linkforge_compile.formats.mesh_paths import find_file, reason_not_found
+from linkforge_compile.roots import ANYWHERE
+from linkforge_compile.source.characters import UnreadableError
+from linkforge_compile.source.read_file import read_bytes
+from linkforge_compile.view.named_files import KINDS, MESHES, TEXTURES, named_files
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source import SourceRef
+
+MAX_BYTES = 128 * 1024 * 1024
+"""The largest file that is shown."""
+
+MAX_ALL_BYTES = 256 * 1024 * 1024
+"""The most that all files of a robot have together: browsers open no larger page."""
+
+OUTSIDE = "it is outside of the folders that the robot may read; use --allow-outside"
+
+_DIGITS = 32
+
+
+class File(NamedTuple):
+    """A file with its kind, such as `stl`; `uses` has the digests of the files that it names, by their names in it."""
+
+    name: str
+    kind: str
+    content: bytes
+    uses: Mapping[str, str] = MappingProxyType({})
+
+
+class MissingFile(NamedTuple):
+    """A file that is not shown, as it is written, with the reason and the links whose shapes have it."""
+
+    resource: str
+    reason: str
+    links: Sequence[str]
+    source: SourceRef | None
+
+
+class RobotFiles(NamedTuple):
+    """The files of a robot by digest, the digests of those that its shapes name, and those that are missing."""
+
+    files: Mapping[str, File] = MappingProxyType({})
+    digests: Mapping[str, str] = MappingProxyType({})
+    missing: Sequence[MissingFile] = ()
+
+
+class _Wanted(NamedTuple):
+    """A file that shapes name: of which kinds it may be, the links of the shapes, and the first place."""
+
+    kinds: frozenset[str]
+    links: dict[str, None]
+    source: SourceRef | None
+
+
+def collect_files(robot: Robot) -> RobotFiles:
+    """Read the meshes and textures of a robot, and the files that they name."""
+    reader, digests, missing = _Reader(robot), {}, []
+    for resource, wanted in _wanted_files(robot).items():
+        try:
+            digests[resource] = reader.read(resource, find_file(robot, resource), wanted.kinds)
+        except UnreadableError as error:
+            missing.append(MissingFile(resource, str(error), tuple(wanted.links), wanted.source))
+        missing += (
+            MissingFile(f"{name} in {resource}", reason, tuple(wanted.links), wanted.source)
+            for name, reason in reader.take_faults()
+        )
+    return RobotFiles(reader.files, digests, missing)
+
+
+def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
+    wanted: dict[str, _Wanted] = {}
+    for link in robot.links:
+        for shape in link.shapes:
+            if isinstance(shape.geometry, Mesh):
+                one = wanted.setdefault(shape.geometry.resource, _Wanted(MESHES, {}, shape.geometry.source))
+                one.links[link.name] = None
+            if isinstance(shape, Visual) and shape.material and shape.material.texture:
+                one = wanted.setdefault(shape.material.texture, _Wanted(TEXTURES, {}, shape.material.source))
+                one.links[link.name] = None
+    return wanted
+
+
+class _Reader:
+    """Reads each file of a robot once."""
+
+    def __init__(self, robot: Robot) -> None:
+        resolver = robot.resource_resolver
+        self._robot = robot
+        self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
+        self._digests: dict[Path, str] = {}
+        self._faults: list[tuple[str, str]] = []
+        self._left = MAX_ALL_BYTES
+        self.files: dict[str, File] = {}
+
+    def take_faults(self) -> list[tuple[str, str]]:
+        """Return the files that were named in those read since the last call and are missing, with the reasons."""
+        faults, self._faults = self._faults, []
+        return faults
+
+    def read(self, resource: str, path: Path | None, kinds: frozenset[str]) -> str:
+        """Return the digest of a file; UnreadableError with the reason if it cannot be shown."""
+        kind = kind_of(resource)
+        if kind not in kinds:
+            raise UnreadableError(f"the viewer does not show .{kind}, only .{', .'.join(sorted(kinds))}")
+        if path is None:
+            raise UnreadableError(reason_not_found(self._robot, resource))
+        if path not in self._digests:
+            self._digests[path] = self._add(path, kind)
+        return self._digests[path]
+
+    def _add(self, path: Path, kind: str) -> str:
+        content = self._content(path)
+        uses = dict(self._named_in(path, kind, content))
+        # Two files of the same content may name different files of the same name in their folders.
+        parts = (kind, *(part for pair in sorted(uses.items()) for part in pair))
+        digest = sha256("\0".join(parts).encode("utf-8", "surrogateescape") + b"\0" + content).hexdigest()[:_DIGITS]
+        self.files.setdefault(digest, File(path.name, kind, content, uses))
+        return digest
+
+    def _content(self, path: Path) -> bytes:
+        if not self._roots.hold(path):
+            raise UnreadableError(OUTSIDE)
+        content = read_bytes(path, min(MAX_BYTES, self._left), only_regular=True)
+        if content is None:
+            raise UnreadableError("the file is not found")
+        if not content.strip():
+            raise UnreadableError("it is empty")
+        if content.startswith(LFS_POINTER):
+            raise UnreadableError("it is a pointer of Git LFS; run 'git lfs pull'")
+        self._left -= len(content)
+        return content
+
+    def _named_in(self, path: Path, kind: str, content: bytes) -> Iterator[tuple[str, str]]:
+        """Yield the files that a file names, by their names in it, with their digests."""
+        for name, place, kinds in named_files(kind, content):
+            found = find_file(self._robot, place) if "://" in place else path.parent / place
+            try:
+                yield name, self.read(place, found, kinds)
+            except UnreadableError as error:
+                self._faults.append((name, str(error)))
+
+
+def kind_of(resource: str) -> str:
+    """Return the ending of a file's name in lower case, without the dot."""
+    ending = resource.lower().rpartition(".")[2]
+    return KINDS.get(ending, ending)

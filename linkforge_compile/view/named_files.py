@@ -1,0 +1,102 @@
+"""The files that meshes and materials name: those of OBJ, MTL, COLLADA and glTF.
+
+A name is given as it is written, which is how the loaders of the page ask for it, and as the path that it is.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping
+from io import BytesIO
+from typing import NamedTuple
+from urllib.parse import unquote
+
+MESHES = frozenset(("stl", "obj", "dae", "gltf", "glb", "ply"))
+TEXTURES = frozenset(("png", "jpg", "bmp", "gif", "webp", "tga"))
+_MATERIALS = frozenset(("mtl",))
+_BUFFERS = frozenset(("bin",))
+_WITH_URIS = ("dae", "gltf", "glb")
+
+KINDS: Mapping[str, str] = {"jpeg": "jpg"}
+"""Endings that have another name as a kind."""
+
+
+class NamedFile(NamedTuple):
+    """A name as it is written, the path that it is, and the kinds that the file may be of."""
+
+    name: str
+    place: str
+    kinds: frozenset[str]
+
+
+def named_files(kind: str, content: bytes) -> Iterator[NamedFile]:
+    """Yield each file that a file of some kind names; none of one that cannot be read."""
+    find = _FINDERS.get(kind)
+    for name, kinds in dict(find(content)).items() if find else ():
+        if name and "\0" not in name and not name.startswith(("data:", "http:", "https:")):
+            place = name.removeprefix("file://")
+            # Names are URIs in glTF and COLLADA, and exporters on Windows write its separators.
+            path = unquote(place) if kind in _WITH_URIS else place
+            yield NamedFile(name, path.replace("\\", "/"), kinds)
+
+
+_LIBRARY = re.compile(rb"^mtllib[ \t]+([^\r\n]+)", re.MULTILINE)
+_MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|norm|disp)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
+_OPTION = re.compile(r"-(?:bm\s+\S+|[so]\s+\S+\s+\S+\s+\S+)\s*")
+
+
+def _in_obj(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    for match in _LIBRARY.finditer(content):
+        yield _text(match[1]), _MATERIALS
+
+
+def _in_mtl(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    for match in _MAP.finditer(content):
+        yield " ".join(_OPTION.sub("", _text(match[1])).split()), TEXTURES
+
+
+def _in_collada(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    from lxml import etree
+
+    # An `init_from` of a surface names an image, and not a file.
+    try:
+        for _, image in etree.iterparse(
+            BytesIO(content), tag="{*}image", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True
+        ):
+            for path in ("{*}init_from", "{*}init_from/{*}ref"):
+                if name := (image.findtext(path) or "").strip():
+                    yield name, TEXTURES
+    except etree.XMLSyntaxError:
+        return
+
+
+def _in_gltf(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    try:
+        document = json.loads(content)
+    except (ValueError, RecursionError):
+        return
+    for key, kinds in (("buffers", _BUFFERS), ("images", TEXTURES)):
+        entries = document.get(key) if isinstance(document, dict) else None
+        for entry in entries if isinstance(entries, list) else ():
+            if isinstance(entry, dict) and isinstance(uri := entry.get("uri"), str):
+                yield uri, kinds
+
+
+def _in_glb(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    """The first chunk of a binary glTF is its JSON, after 12 bytes of the file's header and 8 of the chunk's."""
+    if content.startswith(b"glTF"):
+        yield from _in_gltf(content[20 : 20 + int.from_bytes(content[12:16], "little")])
+
+
+def _text(name: bytes) -> str:
+    return name.decode("utf-8", "replace").strip()
+
+
+_FINDERS: Mapping[str, Callable[[bytes], Iterator[tuple[str, frozenset[str]]]]] = {
+    "obj": _in_obj,
+    "mtl": _in_mtl,
+    "dae": _in_collada,
+    "gltf": _in_gltf,
+    "glb": _in_glb,
+}

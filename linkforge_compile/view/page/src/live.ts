@@ -1,0 +1,32 @@
+/** Updates from the server of `linkforge view`, and settings sent to it. Addresses are relative to the page's. */
+import type { State, Update } from "./state";
+
+export interface SettingsRequest {
+  parameters: Record<string, string>;
+  variant: string | null;
+}
+
+/** Show each update of the server, and whether the server can be reached. */
+export function listen(state: State): void {
+  const events = new EventSource("events");
+  events.addEventListener("update", (event: MessageEvent<string>) => {
+    state.reportConnection("");
+    state.receive(JSON.parse(event.data) as Update);
+  });
+  events.addEventListener("open", () => state.reportConnection(""));
+  events.addEventListener("error", () => state.reportConnection("connection lost; the server has ended"));
+}
+
+/** Compile with other settings; the result arrives as an update. */
+export async function sendSettings(state: State, request: SettingsRequest): Promise<void> {
+  try {
+    const answer = await fetch("settings", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify(request),
+    });
+    if (!answer.ok) state.reportConnection(`the server refused the settings: ${answer.status} ${await answer.text()}`);
+  } catch {
+    state.reportConnection("connection lost; the server has ended");
+  }
+}

@@ -1,0 +1,125 @@
+/** A slider and a number for each movable joint, in the order of the tree. */
+import { isFree, isMovable } from "../kinematics";
+import type { Joint } from "../scene";
+import type { State } from "../state";
+import { make, makeButton, makeSection, moduleTag } from "./elements";
+import { brief, positionUnit, shownLimits, shownPosition, sliderRange } from "./numbers";
+import { findsJoint } from "./search";
+
+export function makeJoints(state: State): HTMLElement {
+  const list = make("div", { className: "joints" });
+  let rows: JointRow[] = [];
+  const rebuild = (): void => {
+    rows = state.scene.joints.filter(isMovable).map((joint) => new JointRow(joint, state));
+    list.replaceChildren(...rows.map((row) => row.element));
+    filter();
+  };
+  const show = (): void => rows.forEach((row) => row.show());
+  const filter = (): void => {
+    for (const row of rows) row.element.hidden = !findsJoint(state, row.joint);
+    const isEmpty = rows.every((row) => row.element.hidden);
+    list.dataset["empty"] = !isEmpty ? "" : rows.length ? "no joint of this name moves" : "no joint of this robot moves";
+  };
+  state.listen((change) => {
+    if (change === "scene") rebuild();
+    if (change === "search") filter();
+    if (change === "positions" || change === "units" || change === "selection") show();
+  });
+  rebuild();
+  return makeSection("Joints", makeTools(state), list);
+}
+
+function makeTools(state: State): HTMLElement {
+  const units = makeButton("", "show angles in degrees or radians (u)", () => state.useDegrees(!state.isInDegrees));
+  const showUnits = (): void => {
+    units.replaceChildren(state.isInDegrees ? "deg" : "rad");
+  };
+  state.listen((change) => change === "units" && showUnits());
+  showUnits();
+  return make(
+    "div",
+    { className: "tools" },
+    makeButton("reset all", "move all joints to where they started (r)", () => state.setPositions(state.start)),
+    makeButton("random", "move all joints to random positions within their limits (p)", () => moveAtRandom(state)),
+    units,
+  );
+}
+
+/** Move each free joint to a random position within its limits. */
+export function moveAtRandom(state: State): void {
+  const free = state.scene.joints.filter(isFree);
+  state.setPositions(
+    Object.fromEntries(
+      free.map((joint) => {
+        const [least, most] = sliderRange(joint);
+        return [joint.name, least + Math.random() * (most - least)];
+      }),
+    ),
+  );
+}
+
+class JointRow {
+  readonly element: HTMLElement;
+  private readonly name: HTMLButtonElement;
+  private readonly slider: HTMLInputElement;
+  private readonly number: HTMLInputElement;
+  private readonly unit = make("span", { className: "unit" });
+  private readonly reset: HTMLButtonElement;
+
+  constructor(
+    readonly joint: Joint,
+    private readonly state: State,
+  ) {
+    const { name, child, module } = joint;
+    const [least, most] = sliderRange(joint);
+    const label = `position of ${name}`;
+    const range = { min: String(least), max: String(most), step: "any" };
+    this.name = makeButton(name, "", () => state.select(child));
+    this.name.className = "name";
+    this.slider = make("input", { type: "range", ...range, ariaLabel: label, disabled: !isFree(joint) });
+    this.number = make("input", { type: "number", ariaLabel: `${label}, number`, disabled: !isFree(joint) });
+    this.reset = makeButton("↺", `move ${name} to where it started`, () => this.moveToStart());
+    this.slider.oninput = () => state.setPositions({ [name]: this.slider.valueAsNumber });
+    this.slider.ondblclick = () => this.moveToStart();
+    this.number.onchange = () => this.readNumber();
+    const head = [this.name, ...moduleTag(module), this.number, this.unit, this.reset];
+    this.element = make("div", { className: "joint" }, make("div", { className: "line" }, ...head), this.slider);
+    if (joint.mimic) this.element.append(make("div", { className: "mimic" }, shownMimic(joint)));
+    this.element.dataset["joint"] = name;
+    this.show();
+  }
+
+  /** Show the position, its unit, and whether the joint's link is selected. */
+  show(): void {
+    const { joint, state } = this;
+    const position = state.positions[joint.name] ?? 0;
+    const unit = positionUnit(joint, state.isInDegrees);
+    this.slider.value = String(position);
+    this.slider.ariaValueText = `${shownPosition(position, unit)} ${unit.name}`;
+    this.number.value = shownPosition(position, unit);
+    this.number.step = String(unit.step);
+    this.unit.replaceChildren(unit.name);
+    this.name.title = `${joint.name}: ${joint.type}, limits: ${shownLimits(joint, state.isInDegrees)}`;
+    this.reset.style.visibility = isFree(joint) && position !== state.start[joint.name] ? "" : "hidden";
+    this.element.classList.toggle("selected", joint.child === state.selected);
+  }
+
+  private moveToStart(): void {
+    this.state.setPositions({ [this.joint.name]: this.state.start[this.joint.name] ?? this.joint.value });
+  }
+
+  private readNumber(): void {
+    const unit = positionUnit(this.joint, this.state.isInDegrees);
+    const number = this.number.valueAsNumber;
+    if (Number.isNaN(number)) this.show();
+    else this.state.setPositions({ [this.joint.name]: number / unit.scale });
+  }
+}
+
+function shownMimic(joint: Joint): string {
+  if (!joint.mimic) return "";
+  const { joint: leader, multiplier, offset } = joint.mimic;
+  const product = multiplier === 1 ? leader : `${brief(multiplier)} × ${leader}`;
+  if (offset === 0) return `= ${product}`;
+  return `= ${product} ${offset < 0 ? "−" : "+"} ${brief(Math.abs(offset))}`;
+}

@@ -1,0 +1,218 @@
+/** What the user set, and what the server reported: the one place of the page that changes. */
+import { isFree, jointPositions, withinLimits, type Positions } from "./kinematics";
+import type { Joint, Link, Place, Scene } from "./scene";
+
+export const LAYERS = ["visuals", "collisions", "frames", "axes", "centers", "inertias", "grid", "labels"] as const;
+export type Layer = (typeof LAYERS)[number];
+
+const FIRST_LAYERS: readonly Layer[] = ["visuals", "grid"];
+
+export type Change = "scene" | "positions" | "layers" | "selection" | "hidden" | "search" | "units" | "live";
+type Listener = (change: Change) => void;
+
+export interface Problem extends Partial<Omit<Place, "file">> {
+  severity: string;
+  code: string;
+  message: string;
+  file?: string | null;
+  /** The address of the page that explains the code. */
+  page?: string | null;
+  hints?: string[];
+}
+
+export interface Parameter {
+  name: string;
+  /** null: its declaration is faulty. */
+  type: string | null;
+  /** The SI unit of `minimum`, `maximum` and `choices`. */
+  unit: string | null;
+  value: string | null;
+  /** null: the parameter is required. */
+  default: string | null;
+  minimum: number | null;
+  maximum: number | null;
+  choices: (string | number | boolean)[] | null;
+  description: string;
+}
+
+export interface Settings {
+  parameters: Parameter[];
+  variants: string[];
+  variant: string | null;
+}
+
+/** An update of the server; a null scene: the last good one stays. */
+export interface Update {
+  version: number;
+  scene: Scene | null;
+  problems: Problem[];
+  settings: Settings;
+}
+
+export class State {
+  /** Why no updates arrive; "" while they do. */
+  connection = "";
+  problems: readonly Problem[] = [];
+  settings: Settings = { parameters: [], variants: [], variant: null };
+  /** Whether the spec is faulty, so that an older robot is shown. */
+  isOutdated = false;
+  #scene: Scene;
+  #set: Record<string, number>;
+  #positions: Positions;
+  #layers: ReadonlySet<Layer>;
+  #hidden: ReadonlySet<string> = new Set();
+  #selected: string | null = null;
+  #search = "";
+  #isInDegrees = true;
+  #joints = new Map<string, Joint>();
+  #links = new Map<string, Link>();
+  readonly #listeners: Listener[] = [];
+
+  constructor(scene: Scene) {
+    this.#scene = scene;
+    this.#index();
+    this.#set = startPositions(scene);
+    this.#positions = jointPositions(scene.joints, this.#set);
+    const named = LAYERS.filter((layer) => scene.view.layers?.includes(layer));
+    this.#layers = new Set(scene.view.layers ? named : FIRST_LAYERS);
+  }
+
+  /** Call the listener after each change. */
+  listen(listener: Listener): void {
+    this.#listeners.push(listener);
+  }
+
+  get scene(): Scene {
+    return this.#scene;
+  }
+
+  /** The position of each movable joint, those that mimic included [rad, m]. */
+  get positions(): Positions {
+    return this.#positions;
+  }
+
+  get layers(): ReadonlySet<Layer> {
+    return this.#layers;
+  }
+
+  /** Names of the links that are not drawn. */
+  get hidden(): ReadonlySet<string> {
+    return this.#hidden;
+  }
+
+  /** The name of the selected link. */
+  get selected(): string | null {
+    return this.#selected;
+  }
+
+  get search(): string {
+    return this.#search;
+  }
+
+  get isInDegrees(): boolean {
+    return this.#isInDegrees;
+  }
+
+  joint(name: string | null): Joint | undefined {
+    return name === null ? undefined : this.#joints.get(name);
+  }
+
+  link(name: string | null): Link | undefined {
+    return name === null ? undefined : this.#links.get(name);
+  }
+
+  /** Move joints, each within its limits; other names are ignored. */
+  setPositions(positions: Positions): void {
+    for (const [name, position] of Object.entries(positions)) {
+      const joint = this.#joints.get(name);
+      if (joint && isFree(joint) && Number.isFinite(position)) this.#set[name] = withinLimits(joint, position);
+    }
+    this.#positions = jointPositions(this.#scene.joints, this.#set);
+    this.#tell("positions");
+  }
+
+  /** Where the joints are when the page opens. */
+  get start(): Positions {
+    return startPositions(this.#scene);
+  }
+
+  setLayer(layer: Layer, isShown: boolean): void {
+    this.#layers = changed(this.#layers, layer, isShown);
+    this.#tell("layers");
+  }
+
+  hide(links: readonly string[], isHidden: boolean): void {
+    for (const link of links) this.#hidden = changed(this.#hidden, link, isHidden);
+    this.#tell("hidden");
+  }
+
+  /** Select a link; null, and the name of no link, select nothing. */
+  select(link: string | null): void {
+    const found = this.link(link)?.name ?? null;
+    if (found === this.#selected) return;
+    this.#selected = found;
+    this.#tell("selection");
+  }
+
+  searchFor(text: string): void {
+    this.#search = text;
+    this.#tell("search");
+  }
+
+  useDegrees(isInDegrees: boolean): void {
+    this.#isInDegrees = isInDegrees;
+    this.#tell("units");
+  }
+
+  /** Show an update of the server. */
+  receive(update: Update): void {
+    this.problems = update.problems;
+    this.settings = update.settings;
+    this.isOutdated = update.scene === null && update.problems.some((problem) => problem.severity === "error");
+    if (update.scene) this.setScene(update.scene);
+    this.#tell("live");
+  }
+
+  /** Show why no updates arrive; "": they do again. */
+  reportConnection(connection: string): void {
+    if (connection === this.connection) return;
+    this.connection = connection;
+    this.#tell("live");
+  }
+
+  /** Show another robot; positions, layers and the selection stay as far as their names do. */
+  setScene(scene: Scene): void {
+    const before = this.#set;
+    this.#scene = scene;
+    this.#index();
+    this.#set = startPositions(scene);
+    for (const name of Object.keys(this.#set)) {
+      const joint = this.#joints.get(name);
+      const position = before[name];
+      if (joint && position !== undefined) this.#set[name] = withinLimits(joint, position);
+    }
+    this.#positions = jointPositions(scene.joints, this.#set);
+    this.#hidden = new Set([...this.#hidden].filter((name) => this.#links.has(name)));
+    this.#selected = this.link(this.#selected)?.name ?? null;
+    this.#tell("scene");
+  }
+
+  #index(): void {
+    this.#joints = new Map(this.#scene.joints.map((joint) => [joint.name, joint]));
+    this.#links = new Map(this.#scene.links.map((link) => [link.name, link]));
+  }
+
+  #tell(change: Change): void {
+    for (const listener of this.#listeners) listener(change);
+  }
+}
+
+function startPositions(scene: Scene): Record<string, number> {
+  const free = scene.joints.filter(isFree);
+  return Object.fromEntries(free.map((joint) => [joint.name, scene.view.pose?.[joint.name] ?? joint.value]));
+}
+
+function changed<T>(set: ReadonlySet<T>, member: T, isMember: boolean): ReadonlySet<T> {
+  const others = [...set].filter((other) => other !== member);
+  return new Set(isMember ? [...others, member] : others);
+}

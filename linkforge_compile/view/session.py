@@ -1,0 +1,199 @@
+"""What a live viewer holds, without a network: settings, the last good scene, problems of the spec, and versions."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from itertools import chain
+from pathlib import Path
+from threading import Condition
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from linkforge_compile.analysis import Settings, analyse_path
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.reports import Selection
+from linkforge_compile.expand import CliArgument
+from linkforge_compile.file_watcher import FileWatcher
+from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
+from linkforge_compile.listing import Listing
+from linkforge_compile.pipeline import parameters_of
+from linkforge_compile.view.files import RobotFiles, collect_files
+from linkforge_compile.view.scene import Scene, SceneView, make_scene
+from linkforge_compile.view.updates import Update, problems_of, shown_settings, values_of
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+
+PANEL = "<parameters>"
+"""The name of the page's panel as the place of a value, in diagnostics."""
+
+ViewOf: TypeAlias = "Callable[[Robot], SceneView] | None"
+"""Returns how a robot is shown first; None for without any options."""
+
+ALL = Selection()
+"""What is reported without options: everything."""
+
+NO_SCENE: Scene = {
+    "name": "",
+    "links": [],
+    "joints": [],
+    "states": [],
+    "files": {},
+    "missing": [],
+    "view": {"panels": True},
+    "live": True,
+    "version": 0,
+}
+"""What a page shows until the spec has been compiled without errors."""
+
+Changes: TypeAlias = tuple[Path | str, ...]
+"""Files, and what else has changed, by its name."""
+
+
+class State(NamedTuple):
+    """What all pages show, after one compile.
+
+    `scene` is that of the last compile without errors, and was new in `scene_version`, 0 for none yet. `is_current` is
+    false if the latest compile had errors. `files` are those of the scene, `former_files` those of the scene before,
+    which a page may still be loading. `watched` are the files on which it all depends, whether or not they exist.
+    """
+
+    version: int = 0
+    scene: Scene = NO_SCENE
+    scene_version: int = 0
+    is_current: bool = False
+    files: RobotFiles = RobotFiles()
+    former_files: RobotFiles = RobotFiles()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    settings: Settings = Settings()
+    listing: Listing | None = None
+    watched: tuple[Path, ...] = ()
+
+    def update_since(self, version: int) -> Update:
+        """Return what a page needs that has the scene of a version; 0 for none."""
+        return {
+            "version": self.version,
+            "scene": self.scene if version < self.scene_version else None,
+            "problems": problems_of(self.diagnostics),
+            "settings": shown_settings(self.settings, self.listing),
+        }
+
+    def content_of(self, digest: str) -> tuple[str, bytes] | None:
+        """Return the kind and the bytes of a file of the scene or of the one before; None for no such file."""
+        file = self.files.files.get(digest) or self.former_files.files.get(digest)
+        return (file.kind, file.content) if file else None
+
+
+def compile_state(
+    spec: Path, settings: Settings, last: State, selection: Selection = ALL, view_of: ViewOf = None
+) -> State:
+    """Compile a spec and return what is shown next; what is new in a spec with errors is its problems.
+
+    What the page sets of parameters that the spec no longer declares has no effect.
+    """
+    listing, _ = parameters_of(spec, packages=settings.packages, allow_outside=settings.allow_outside)
+    listing = listing or last.listing
+    settings = _with_declared_only(settings, listing)
+    compilation = analyse_path(spec, settings).compilation
+    state = last._replace(
+        version=last.version + 1,
+        is_current=compilation.robot is not None,
+        diagnostics=selection.of(compilation.diagnostics),
+        settings=settings,
+        listing=listing,
+        watched=tuple(dict.fromkeys((spec, *compilation.files, *compilation.unread))),
+    )
+    if compilation.robot is None:
+        # The files of the last scene may be what was changed to correct it.
+        return state._replace(watched=tuple(dict.fromkeys((*state.watched, *last.watched))))
+    return _with_scene(state, compilation.robot, view_of(compilation.robot) if view_of else None)
+
+
+def _with_scene(state: State, robot: Robot, view: SceneView | None) -> State:
+    files = collect_files(robot)
+    scene = make_scene(robot, files, view, is_live=True)
+    scene["version"] = state.scene_version
+    shapes = places_of_files(robot, chain(mesh_paths(robot), texture_paths(robot)))
+    state = state._replace(watched=tuple(dict.fromkeys((*state.watched, *shapes))))
+    if scene == state.scene:
+        return state
+    scene["version"] = state.version
+    return state._replace(scene=scene, scene_version=state.version, files=files, former_files=state.files)
+
+
+class Session:
+    """The state that pages show: one thread renews it, and others choose settings and wait for updates."""
+
+    def __init__(self, spec: Path, settings: Settings, selection: Selection = ALL, view_of: ViewOf = None) -> None:
+        self._spec, self._settings, self._selection, self._view_of = spec, settings, selection, view_of
+        self._state = State()
+        self._watcher = FileWatcher([spec])
+        self._news = Condition()
+        self._chosen: dict[str, None] = {}
+        """What was set since the last poll."""
+        self._is_closed = False
+
+    @property
+    def state(self) -> State:
+        return self._state
+
+    @property
+    def is_closed(self) -> bool:
+        return self._is_closed
+
+    def renew(self) -> State:
+        """Compile with the latest settings, and give the result to those who wait."""
+        began = time.time_ns()
+        with self._news:
+            settings = self._settings
+        state = compile_state(self._spec, settings, self._state, self._selection, self._view_of)
+        self._watcher.track(state.watched, began)
+        with self._news:
+            self._state = state
+            self._news.notify_all()
+        return state
+
+    def choose(self, values: Mapping[str, str], variant: str | None) -> None:
+        """Set parameters, all others to their defaults, and the variant; the next `renew` compiles with them."""
+        with self._news:
+            before = values_of(self._settings.parameters)
+            names = dict.fromkeys((*before, *values))
+            changed = [f"parameter {name}" for name in names if before.get(name) != values.get(name)]
+            changed += ["the variant"] if variant != self._settings.variant else []
+            parameters = {name: CliArgument(PANEL, name, text) for name, text in values.items()}
+            self._settings = self._settings._replace(parameters=parameters, variant=variant)
+            self._chosen |= dict.fromkeys(changed)
+            self._news.notify_all()
+
+    def poll(self) -> Changes:
+        """Return the files that changed and the parameters that were set since the last poll."""
+        with self._news:
+            chosen, self._chosen = tuple(self._chosen), {}
+        return *chosen, *self._watcher.poll()
+
+    def pause(self, seconds: float) -> None:
+        """Sleep, but no longer than until a parameter is set."""
+        with self._news:
+            self._news.wait_for(lambda: self._chosen, seconds)
+
+    def wait(self, version: int, seconds: float) -> State:
+        """Return the state once it is newer than a version; after the time, or once it is closed, as it is."""
+        with self._news:
+            self._news.wait_for(lambda: self._is_closed or self._state.version > version, seconds)
+            return self._state
+
+    def close(self) -> None:
+        """Release all who wait."""
+        with self._news:
+            self._is_closed = True
+            self._news.notify_all()
+
+
+def _with_declared_only(settings: Settings, listing: Listing | None) -> Settings:
+    """Leave out what the page set of parameters that are not declared; those of the command line are reported."""
+    if listing is None or not isinstance(settings.parameters, Mapping):
+        return settings
+    declared = {one.name for one in listing.parameters}
+    return settings._replace(
+        parameters={name: value for name, value in settings.parameters.items() if name in declared}
+    )

@@ -1,0 +1,134 @@
+"""What the pages of a live viewer receive: the scene, the problems of the spec, and the settings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypedDict
+
+from linkforge_compile.analysis import Parameters, Settings
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics.render_text import MOST_SHOWN, snippet
+from linkforge_compile.diagnostics.reports import count_losses
+from linkforge_compile.expand import CliArgument, arguments_from_text
+from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
+from linkforge_compile.view.scene import Scene
+
+
+class Problem(TypedDict):
+    """A diagnostic as the page shows it; file, line and column are None for one without a place in a file.
+
+    `page` is the address of the code's manual page, below that of the viewer. `hints` are its notes and fixes, and
+    `snippet` is the line at fault with a caret under the words, "" for none.
+    """
+
+    severity: str
+    code: str
+    message: str
+    file: str | None
+    line: int | None
+    column: int | None
+    page: str
+    hints: list[str]
+    snippet: str
+
+
+class ParameterSetting(TypedDict):
+    """A parameter as its widget shows it; numbers are in `unit`, an SI unit.
+
+    `value` is what the user set, as text; None for the default, which the chosen variant may replace.
+    """
+
+    name: str
+    type: str | None
+    unit: str | None
+    value: str | None
+    default: str | None
+    minimum: Plain
+    maximum: Plain
+    choices: list[Plain] | None
+    description: str
+
+
+class ShownSettings(TypedDict):
+    """What the user may set, with what is set."""
+
+    parameters: list[ParameterSetting]
+    variants: list[str]
+    variant: str | None
+
+
+class Update(TypedDict):
+    """What a page receives; `scene` is None if it shows that already, or there is none yet."""
+
+    version: int
+    scene: Scene | None
+    problems: list[Problem]
+    settings: ShownSettings
+
+
+def values_of(parameters: Parameters | None) -> dict[str, str]:
+    """Return what parameters are set to, as text by name."""
+    if isinstance(parameters, Mapping):
+        return {name: value.text for name, value in parameters.items() if isinstance(value, CliArgument)}
+    entries = arguments_from_text(tuple(parameters or ()), Diagnostics()).entries
+    return {name: as_written(entry.value) for name, entry in entries.items()}
+
+
+def shown_settings(settings: Settings, listing: Listing | None) -> ShownSettings:
+    """Return the settings of a compile with what the file declares; None if that could not be read yet."""
+    if listing is None:
+        return {"parameters": [], "variants": [], "variant": settings.variant}
+    values, by_variant = values_of(settings.parameters), dict[str, str]()
+    for name in (settings.variant or "").split("+"):
+        by_variant |= listing.variants.get(name, {})
+    return {
+        "parameters": [_shown(one, values.get(one.name), by_variant.get(one.name)) for one in listing.parameters],
+        "variants": list(listing.variants),
+        "variant": settings.variant,
+    }
+
+
+def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None) -> ParameterSetting:
+    default = parameter.default if of_variant is None else of_variant
+    if of_variant is None and "$(" in (default or ""):
+        default = parameter.computed or default
+    return {
+        "name": parameter.name,
+        "type": parameter.type,
+        "unit": parameter.unit,
+        "value": value,
+        "default": default,
+        "minimum": parameter.minimum,
+        "maximum": parameter.maximum,
+        "choices": parameter.choices,
+        "description": parameter.description,
+    }
+
+
+def problems_of(diagnostics: Iterable[Diagnostic]) -> list[Problem]:
+    """Return the diagnostics that a report in text shows, errors first."""
+    diagnostics = tuple(diagnostics)
+    shown = [one for one in count_losses(diagnostics, [diagnostics]) if not one.is_only_counted]
+    shown.sort(key=lambda one: list(Severity).index(one.severity))
+    return [_problem(one) for one in shown[:MOST_SHOWN]]
+
+
+def _problem(one: Diagnostic) -> Problem:
+    span = one.span if one.span and one.span.file.path else None
+    return {
+        "severity": one.severity.value,
+        "code": one.code.id,
+        "message": one.message,
+        "file": span.file.shown if span else None,
+        "line": span.line if span else None,
+        "column": span.column if span else None,
+        "page": f"codes/{one.code.id}",
+        "hints": list(_hints(one)),
+        "snippet": "\n".join(snippet(one.span)),
+    }
+
+
+def _hints(one: Diagnostic) -> Iterator[str]:
+    for note in one.notes:
+        yield f"{note.span}: {note.message}" if note.span else note.message
+    yield from (fix.title for fix in one.fixes)
