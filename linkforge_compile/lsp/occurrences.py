@@ -16,6 +16,7 @@ from linkforge_compile.expand.instance import joint_name_of
 from linkforge_compile.lsp.expression_names import SECTIONS, names_in
 from linkforge_compile.lsp.module_entries import used_entries
 from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.unconditional import unconditional_tree
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.json_schema import Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
@@ -94,6 +95,8 @@ def _in_instance(instance: Instance, outer: str) -> Iterator[Occurrence]:
     yield from computed
     places = {one.span for one in computed}
     yield from (one for one in _written(instance, prefix) if one.span not in places and not one.is_computed)
+    if (tree := unconditional_tree(instance)) is not None:
+        yield from _Walker(prefix).in_robot(tree)
     for module in instance.modules:
         yield from _in_instance(module, prefix)
 

@@ -78,7 +78,8 @@ def _refuse_free_texts(
 ) -> None:
     """Raise RefusedError for a text that may be the name and is not changed."""
     own = spec.occurrences.all
-    places = {one.span for one in own}
+    places, renamed = {one.span for one in own}, {one.span for one in _of(renaming, spec)}
+    kinds, kinds_at = {one.kind for one in renaming.occurrences}, _kinds_at(own)
     finals = {_in_documents(one.kind, one.name) for one in _of(renaming, spec)}
     written = {one.written for one in renaming.occurrences if not one.is_computed}
     parts = {one.named for one in own if one.is_declaration and not one.scope}
@@ -93,9 +94,18 @@ def _refuse_free_texts(
         names = unused | {name.removeprefix(prefix) for name in finals if name.startswith(prefix)}
         if instance.spec.file.path and identity(instance.spec.file.path) in edited:
             names |= {name for name in written if prefix + name not in declared}
-        for text in free_texts(instance.spec.tree):
-            if text.names(names) and text.span not in places:
+        for text in free_texts(instance.spec.tree, places):
+            if text.may_be(names) and kinds_at.get(text.span, kinds) & kinds and text.span not in renamed:
                 _refuse_text(text.text or text.span.text or "", text.span, renaming)
+
+
+def _kinds_at(names: Iterable[Occurrence]) -> dict[Span, set[str]]:
+    """Return which kinds of parts are named at a place."""
+    kinds: dict[Span, set[str]] = {}
+    for one in names:
+        if not one.scope:
+            kinds.setdefault(one.span, set()).add(one.kind)
+    return kinds
 
 
 def _refuse_text(text: str, place: Span, renaming: Renaming) -> None:
@@ -175,9 +185,8 @@ def _refuse_left(name: str, documents: Sequence[str], *, is_other: bool) -> None
         for element in etree.fromstring(document.encode()).iter(etree.Element):
             is_root = element.getparent() is None  # it has the name of the robot
             values = [str(value) for key, value in element.attrib.items() if key != "type" and not is_root]
-            if any(
-                has_word(value, [name]) and not (is_other and value == name) for value in (*values, element.text or "")
-            ):
+            values += [element.text or ""] if element.tag != "topic" else []
+            if any(has_word(value, [name]) and not (is_other and value == name) for value in values):
                 line = etree.tostring(element, encoding="unicode", with_tail=False).partition("\n")[0]
                 raise RefusedError(f"'{name}' is in text that others read, which is not renamed: {line}")
 

@@ -88,6 +88,18 @@ def test_a_name_that_a_part_under_a_condition_has_is_taken(editor: Editor, path:
         renamed(editor, path, ROBOT.replace("  base:", "  ba¦se:"), "tool")
 
 
+def test_names_that_expressions_would_make_under_a_condition_are_known(editor: Editor, path: Path):
+    text = ROBOT.replace("links:", 'links:\n  "rod_$(s)": {when: $(with_tool), for: {s: [a, b]}}')
+    text += '  "to_$(s)": {when: $(with_tool), for: {s: [a, b]}, type: fixed, parent: base, child: rod_$(s)}\n'
+    with pytest.raises(JsonRpcException, match="there is a link 'rod_a' already"):
+        renamed(editor, path, text.replace("  base:", "  ba¦se:"), "rod_a")
+    found = renamed(editor, path, text.replace("  base:", "  ba¦se:"), "trunk")
+    assert found == {"robot": text.replace("base", "trunk")}
+    taken = text.replace("base", "to_c")
+    found = renamed(editor, path, taken.replace("  to_c:", "  to¦_c:"), "trunk")
+    assert found == {"robot": taken.replace("to_c", "trunk")}
+
+
 def test_what_an_override_replaces_is_renamed(editor: Editor, path: Path):
     cell = """\
 linkforge: 1
