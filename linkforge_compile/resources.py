@@ -6,6 +6,9 @@ from collections.abc import Collection
 from functools import cache
 from pathlib import Path
 
+OF_COMMANDS = ("init", "overview")
+"""The folders of templates for commands other than `compile`."""
+
 
 @cache
 def data_folder() -> Path:
@@ -27,10 +30,10 @@ def templates_folder() -> Path:
 
 
 def format_templates(formats: Collection[str] = ()) -> list[Path]:
-    """Return the templates of formats, sorted, those of all for none: all but those of `linkforge init`."""
+    """Return the templates of formats, sorted, those of all for none: all but those of other commands."""
     folder = templates_folder()
     by_format = ((path.relative_to(folder).parts[0], path) for path in sorted(folder.rglob("*.j2")))
-    return [path for name, path in by_format if (name in formats if formats else name != "init")]
+    return [path for name, path in by_format if (name in formats if formats else name not in OF_COMMANDS)]
 
 
 def compiled_templates_folder() -> Path:

@@ -39,7 +39,7 @@ MAY_IMPORT = {
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
-    "overview": "source diagnostics units core checks formats roots",
+    "overview": "source diagnostics units core listing checks formats roots resources",
     "export_spec": "source diagnostics units syntax core expand listing",
     "compare": "source units core formats",
     "collisions": "source diagnostics syntax core checks roots",
@@ -55,13 +55,15 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
         "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
-        "export_spec overview editor roots paths resources formats lower limits _version"
+        "export_spec overview editor roots paths resources formats limits lower compilation _version"
     ),
-    "view": ("source diagnostics checks formats core roots resources expand listing analysis pipeline file_watcher"),
+    "view": (
+        "source diagnostics checks formats core roots resources compare expand listing analysis pipeline file_watcher"
+    ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats formatter overview export_spec compare collisions view editor lsp resources file_watcher "
-        "_version"
+        "importing formats formatter overview export_spec compare collisions view editor lsp resources units "
+        "file_watcher _version"
     ),
 }
 

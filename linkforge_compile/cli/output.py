@@ -13,7 +13,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from errno import EBUSY, EISDIR
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.reports import print_status
@@ -24,12 +24,16 @@ if TYPE_CHECKING:
     import argparse
 
 
-def write_to_stdout(text: str) -> None:
-    """Write text to standard output as UTF-8, with its line ends unchanged; UsageError if that fails."""
+Content: TypeAlias = str | bytes
+"""What a file holds; a text is written in UTF-8."""
+
+
+def write_to_stdout(content: Content) -> None:
+    """Write to standard output, with the line ends of a text unchanged; UsageError if that fails."""
     try:
         if sys.stdout is None:
             raise UsageError("cannot write to standard output: it is closed")
-        unwritten = memoryview(_encode(text))
+        unwritten = memoryview(_encode(content))
         while unwritten:
             # With PYTHONUNBUFFERED the stream has no buffer, and writing to a full disk may write only a part.
             unwritten = unwritten[sys.stdout.buffer.write(unwritten) :]
@@ -40,12 +44,12 @@ def write_to_stdout(text: str) -> None:
         raise UsageError(f"cannot write to standard output: {error.strerror}") from error
 
 
-def write_document(text: str, path: Path | None, arguments: argparse.Namespace) -> None:
+def write_document(content: Content, path: Path | None, arguments: argparse.Namespace) -> None:
     """Write the one output of a command to a file, or to standard output for None, and print what was done."""
     if path is None:
-        write_to_stdout(text)
+        write_to_stdout(content)
     else:
-        print_status(f"wrote {path}" if write_if_changed(path, text) else f"{path} is up to date", arguments)
+        print_status(f"wrote {path}" if write_if_changed(path, content) else f"{path} is up to date", arguments)
 
 
 def json_text(document: object) -> str:
@@ -72,25 +76,25 @@ def unified(name: str, before: str, after: str, how: str) -> str:
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in shown)
 
 
-def write_if_changed(path: Path, text: str) -> bool:
+def write_if_changed(path: Path, content: Content) -> bool:
     """Write one file as `write_changed` does; return whether it was written."""
-    return bool(write_changed({path: text}))
+    return bool(write_changed({path: content}))
 
 
-def write_changed(texts: Mapping[Path, str], stdout: str | None = None) -> frozenset[Path]:
-    """Write each text to its file, and `stdout` to standard output; return the files that were written.
+def write_changed(contents: Mapping[Path, Content], stdout: Content | None = None) -> frozenset[Path]:
+    """Write each content to its file, and `stdout` to standard output; return the files that were written.
 
-    Files that hold their text already are not touched, so that build tools see no change. All others are written to
-    temporary files first, which then replace their targets one by one: if a text cannot be written, no target is
+    Files that hold their content already are not touched, so that build tools see no change. All others are written to
+    temporary files first, which then replace their targets one by one: if one cannot be written, no target is
     replaced. Devices, pipes and standard output come last. UsageError if something cannot be written.
     """
-    targets = {path: resolve_output(path) for path in texts}
+    targets = {path: resolve_output(path) for path in contents}
     with remove_new_folders_on_error(targets.values()), ExitStack() as cleanup:
         temporary: dict[Path, Path] = {}
         devices: list[Path] = []
         for path, target in targets.items():
             with _write_errors(path, target):
-                content = _encode(texts[path])
+                content = _encode(contents[path])
                 if target.is_file() and target.read_bytes() == content:
                     continue
                 if target.is_dir():
@@ -104,7 +108,7 @@ def write_changed(texts: Mapping[Path, str], stdout: str | None = None) -> froze
                 new.replace(targets[path])
         for path in devices:
             with _write_errors(path, targets[path]):
-                targets[path].write_bytes(_encode(texts[path]))
+                targets[path].write_bytes(_encode(contents[path]))
         if stdout is not None:
             write_to_stdout(stdout)
     return frozenset((*temporary, *devices))
@@ -180,9 +184,9 @@ def _reason(error: OSError, target: Path) -> str:
     return f"'{blocked.name}' is not a folder" if blocked else str(error.strerror)
 
 
-def _encode(text: str) -> bytes:
+def _encode(content: Content) -> bytes:
     """Return text in UTF-8; bytes of file names that are not UTF-8 become escape sequences, as in JSON."""
-    return text.encode("utf-8", "backslashreplace")
+    return content if isinstance(content, bytes) else content.encode("utf-8", "backslashreplace")
 
 
 def _write_temporary(target: Path, content: bytes, cleanup: ExitStack) -> Path:

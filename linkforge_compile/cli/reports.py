@@ -20,6 +20,7 @@ from linkforge_compile.source.characters import on_one_line
 if TYPE_CHECKING:
     import argparse
 
+    from linkforge_compile.diagnostics.reports import Selection
     from linkforge_compile.source import Span
 
 PATIENCE = 3.0
@@ -86,10 +87,14 @@ def select(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> 
     diagnostics = tuple(diagnostics)
     if not diagnostics:
         return ()
+    return selection_of(arguments).of(diagnostics)
+
+
+def selection_of(arguments: argparse.Namespace) -> Selection:
+    """Return which diagnostics the options select."""
     from linkforge_compile.diagnostics.reports import Selection
 
-    selection = Selection(tuple(arguments.select), tuple(arguments.ignore), tuple(arguments.errors), arguments.quiet)
-    return selection.of(diagnostics)
+    return Selection(tuple(arguments.select), tuple(arguments.ignore), tuple(arguments.errors), arguments.quiet)
 
 
 def report(diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> bool:
@@ -200,14 +205,14 @@ def place_lines(what: str, place: Span) -> Iterator[str]:
 
 
 @contextmanager
-def progress_after(file: str, arguments: argparse.Namespace) -> Iterator[None]:
-    """On a terminal, print which file is being read if the body takes longer than PATIENCE."""
+def progress_after(doing: str, arguments: argparse.Namespace) -> Iterator[None]:
+    """On a terminal, print what is being done if the body takes longer than PATIENCE: `reading robot.urdf`."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield
         return
     from threading import Timer
 
-    timer = Timer(PATIENCE, print_status, (f"still reading {file}; Ctrl-C ends it", arguments))
+    timer = Timer(PATIENCE, print_status, (f"still {doing}; Ctrl-C ends it", arguments))
     timer.daemon = True
     timer.start()
     try:

@@ -24,13 +24,15 @@ _SETTLE_TIME = 0.05
 class Watched(NamedTuple):
     """What a run depends on.
 
-    `files` are named to the user. `poll` returns those that have changed since its last call, and may return others.
-    The deletion of one of the `outputs` is a reason for another run too.
+    `files` are named to the user. `poll` returns those that have changed since its last call, and may return others,
+    and what else has changed, by its name. `pause` sleeps for a time [s], or less if `poll` has news; None for
+    time.sleep. The deletion of one of the `outputs` is a reason for another run too.
     """
 
     files: Sequence[Path]
-    poll: Callable[[], tuple[Path, ...]]
+    poll: Callable[[], tuple[Path | str, ...]]
     outputs: Sequence[Path] = ()
+    pause: Callable[[float], None] | None = None
 
 
 def repeat_on_changes(command: str, run: Callable[[], Watched], arguments: argparse.Namespace) -> NoReturn:
@@ -55,24 +57,25 @@ def repeat_on_changes(command: str, run: Callable[[], Watched], arguments: argpa
             watched = watched._replace(outputs=())
 
 
-def _wait(watched: Watched) -> tuple[tuple[Path, ...], tuple[Path, ...]]:
-    """Wait for changed files or deleted outputs, then until nothing else changes; return both."""
-    changed: tuple[Path, ...] = ()
+def _wait(watched: Watched) -> tuple[tuple[Path | str, ...], tuple[Path, ...]]:
+    """Wait for what changes or deleted outputs, then until no other file changes; return both."""
+    changed: tuple[Path | str, ...] = ()
     gone: tuple[Path, ...] = ()
+    pause = watched.pause or time.sleep
     while not changed and not gone:
-        time.sleep(_POLL_INTERVAL)
+        pause(_POLL_INTERVAL)
         changed = watched.poll()
         gone = tuple(path for path in watched.outputs if not path.exists())
     while True:
         time.sleep(_SETTLE_TIME)
         more = watched.poll()
-        if not more:
-            return changed, gone
         changed = tuple(dict.fromkeys((*changed, *more)))
+        if not any(isinstance(one, Path) for one in more):
+            return changed, gone
 
 
-def _listed(paths: Sequence[Path]) -> str:
-    first, *others = paths
+def _listed(names: Sequence[Path | str]) -> str:
+    first, *others = names
     return f"{first} and {len(others)} more" if others else str(first)
 
 

@@ -1,4 +1,4 @@
-"""A robot as plain values, to sample it in several processes or pose it: bodies, their motion and shapes."""
+"""A robot as plain values, which several processes may share: bodies, their motion and shapes."""
 
 from __future__ import annotations
 

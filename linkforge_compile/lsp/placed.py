@@ -66,14 +66,9 @@ def uses_in(analyses: Iterable[Analysis]) -> Iterator[FileUse]:
             yield from _uses(analysis, analysis.instance, "", ())
 
 
-def is_malformed(document: Document) -> bool:
-    """Whether the text cannot be read, so that what is known of it is from an earlier one."""
-    return document.analysis is None or document.analysis.instance is None
-
-
 def known_analyses(document: Document) -> tuple[Analysis, ...]:
     """Return the analyses of a document, with the latest of a text that could be read if its own cannot."""
-    last = (document.readable,) if document.readable is not None and is_malformed(document) else ()
+    last = (document.readable,) if document.readable is not None and document.is_malformed else ()
     return (*last, *document.analyses)
 
 

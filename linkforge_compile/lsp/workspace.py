@@ -40,7 +40,7 @@ class Buffer(NamedTuple):
 class Document(NamedTuple):
     """What a feature sees of an open buffer: its text, and the analyses of the specs that read it, its own first.
 
-    `readable` is the latest of the first of them that was not malformed.
+    `readable` is the latest analysis in which the text parsed.
     """
 
     path: Path
@@ -53,6 +53,11 @@ class Document(NamedTuple):
     def analysis(self) -> Analysis | None:
         """The analysis of the spec that the text is or belongs to."""
         return self.analyses[0] if self.analyses else None
+
+    @property
+    def is_malformed(self) -> bool:
+        """Whether the text does not parse, so that what is known of it is from an earlier one."""
+        return self.analysis is None or not _parsed(self.analysis, identity(self.path))
 
     def place(self, at: types.Position) -> Position:
         """Return the place of a position of the protocol in this text."""
@@ -73,13 +78,12 @@ class Workspace:
     analyses: dict[str, Analysis] = field(default_factory=dict)
     """The latest analysis of each spec by real path."""
     readable: dict[str, Analysis] = field(default_factory=dict)
-    """The latest analysis of each spec whose text was not malformed, by real path."""
+    """The latest analysis in which each buffer parsed, by its real path."""
     generation: int = 0
     _stale: set[str] = field(default_factory=set)
     _includers: dict[str, tuple[Path, ...]] = field(default_factory=dict)
     _changed: dict[str, set[str]] = field(default_factory=dict)
     """The files that changed since the analysis of a spec began, for those being analysed, by real path."""
-    """The files that changed since the latest analysis began, whose own files are known only once it ends."""
 
     def put(self, path: Path, version: int | None, text: str) -> None:
         """Open a buffer, or replace its text."""
@@ -95,9 +99,13 @@ class Workspace:
         self.buffers.pop(real, None)
         self._includers.pop(real, None)
         self.note_change(path)
-        needed = {identity(root) for root in self.roots()}
+        self._forget_unneeded()
+
+    def _forget_unneeded(self) -> None:
+        """Forget the analyses of what is neither open nor a spec that includes what is."""
+        needed = {*self.buffers, *(identity(root) for root in self.roots())}
         self.analyses = {root: analysis for root, analysis in self.analyses.items() if root in needed}
-        self.readable = {root: analysis for root, analysis in self.readable.items() if root in needed}
+        self.readable = {real: analysis for real, analysis in self.readable.items() if real in self.buffers}
         self._stale &= needed
 
     def note_change(self, path: Path) -> bool:
@@ -153,11 +161,13 @@ class Workspace:
         self.analyses[real] = analysis
         if _depends(analysis, self._changed.pop(real, ())):
             self._stale.add(real)
-        if analysis.instance is not None:
-            self.readable[real] = analysis
         if includers:
             self._includers[real] = tuple(includers)
         self._note_includes(path, analysis)
+        for buffer in self.buffers:
+            if (buffer == real or buffer in self._includers) and _parsed(analysis, buffer):
+                self.readable[buffer] = analysis
+        self._forget_unneeded()
 
     def _note_includes(self, path: Path, analysis: Analysis) -> None:
         """Note of which open parts a spec is an includer, and of which it is none any more."""
@@ -178,9 +188,7 @@ class Workspace:
             return None
         own = [self.analyses[real]] if real in self.analyses and real not in self._includers else []
         others = [one for root, one in self.analyses.items() if root != real and _reads(one, real)]
-        readable = [self.readable[real]] if real in self.readable and real not in self._includers else []
-        readable += [one for root, one in self.readable.items() if root != real and _reads(one, real)]
-        return Document(buffer.path, buffer.file, (*own, *others), columns, readable[0] if readable else None)
+        return Document(buffer.path, buffer.file, (*own, *others), columns, self.readable.get(real))
 
 
 def is_spec(path: Path) -> bool:
@@ -200,6 +208,12 @@ def _depends(analysis: Analysis, files: Container[str]) -> bool:
 
 def _reads(analysis: Analysis, real: str) -> bool:
     return any(identity(file) == real for file in analysis.compilation.files)
+
+
+def _parsed(analysis: Analysis, real: str) -> bool:
+    """Whether a file is the spec or an included one, and was not malformed."""
+    files = (analysis.spec.file, *analysis.spec.included) if analysis.spec and analysis.instance else ()
+    return any(file.path is not None and identity(file.path) == real for file in files)
 
 
 def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[Path, Analysis]:
@@ -222,6 +236,15 @@ def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[
 def _files_of(analysis: Analysis) -> set[str]:
     """Return the real paths of the files that a spec reads, or would read if all conditions held."""
     return {identity(file) for file in (*analysis.compilation.files, *unused_files(analysis.instance))}
+
+
+def with_users(document: Document, folders: Iterable[Path], settings: Settings) -> Document:
+    """Return a document with the analyses of the specs in folders that read it, with the text that it has here."""
+    buffers = {**settings.buffers, identity(document.path): document.file.text}
+    known = {identity(one.compilation.files[0]) for one in document.analyses if one.compilation.files}
+    users = find_users(document.path, folders, settings._replace(buffers=buffers))
+    others = (one for path, one in users.items() if identity(path) not in known)
+    return document._replace(analyses=(*document.analyses, *others))
 
 
 def _mentioning(path: Path, folders: Iterable[Path], buffers: Mapping[str, str]) -> list[Path]:

@@ -23,6 +23,11 @@ def axis_text(joint: Joint) -> str:
     return name or f"[{', '.join(number_text(round(value, 3)) for value in joint.axis)}]"
 
 
+def type_text(joint: Joint) -> str:
+    """Return the type of a joint with its axis, such as `revolute -z`."""
+    return f"{joint.type} {axis_text(joint)}".strip()
+
+
 def motion_text(joint: Joint) -> str:
     """Return where a joint can be, such as `-90 to 90 deg`, or what it follows; "" for one without one position."""
     if joint.type not in SINGLE_AXIS:

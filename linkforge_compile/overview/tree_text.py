@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.diagnostics.terminal import BOLD, CYAN, DIM, padded, styled, width_of
-from linkforge_compile.overview.joint_text import axis_text, motion_text, short
+from linkforge_compile.overview.joint_text import motion_text, short, type_text
 from linkforge_compile.overview.tree import TreeRow
 
 WIDTH = 100
@@ -150,7 +150,7 @@ def _in_pairs(rows: Sequence[TreeRow], branches: Sequence[_Branch]) -> _Table:
 
 
 def _motion(joint: Joint | None) -> tuple[str, str]:
-    return (f"{joint.type} {axis_text(joint)}".strip(), motion_text(joint)) if joint else ("", "")
+    return (type_text(joint), motion_text(joint)) if joint else ("", "")
 
 
 def _mass_text(row: TreeRow) -> str:

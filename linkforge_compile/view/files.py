@@ -12,11 +12,17 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.mesh_files import LFS_POINTER
+from linkforge_compile.checks.mesh_files import LFS_POINTER, MeshFinder
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Visual
 from linkforge_compile.core.resolver import FileSystemResolver
-from linkforge_compile.formats.mesh_paths import find_file, reason_not_found
+from linkforge_compile.diagnostics import UnresolvedNames
+from linkforge_compile.formats.mesh_paths import (
+    mesh_paths,
+    places_of_files,
+    reason_not_found,
+    texture_paths,
+)
 from linkforge_compile.roots import ANYWHERE
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_bytes
@@ -56,11 +62,15 @@ class MissingFile(NamedTuple):
 
 
 class RobotFiles(NamedTuple):
-    """The files of a robot by digest, the digests of those that its shapes name, and those that are missing."""
+    """The files of a robot by digest, the digests of those that its shapes name, and those that are missing.
+
+    `paths` are those of all files on which these depend; some may not exist.
+    """
 
     files: Mapping[str, File] = MappingProxyType({})
     digests: Mapping[str, str] = MappingProxyType({})
     missing: Sequence[MissingFile] = ()
+    paths: Sequence[Path] = ()
 
 
 class _Wanted(NamedTuple):
@@ -76,14 +86,15 @@ def collect_files(robot: Robot) -> RobotFiles:
     reader, digests, missing = _Reader(robot), {}, []
     for resource, wanted in _wanted_files(robot).items():
         try:
-            digests[resource] = reader.read(resource, find_file(robot, resource), wanted.kinds)
+            digests[resource] = reader.read(resource, wanted.kinds)
         except UnreadableError as error:
             missing.append(MissingFile(resource, str(error), tuple(wanted.links), wanted.source))
         missing += (
             MissingFile(f"{name} in {resource}", reason, tuple(wanted.links), wanted.source)
             for name, reason in reader.take_faults()
         )
-    return RobotFiles(reader.files, digests, missing)
+    paths = dict.fromkeys((*reader.paths, *places_of_files(robot, (*mesh_paths(robot), *texture_paths(robot)))))
+    return RobotFiles(reader.files, digests, missing, tuple(paths))
 
 
 def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
@@ -106,24 +117,35 @@ class _Reader:
         resolver = robot.resource_resolver
         self._robot = robot
         self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
+        self._finder = MeshFinder(robot, UnresolvedNames().with_access(self._roots.hold))
         self._digests: dict[Path, str] = {}
         self._faults: list[tuple[str, str]] = []
         self._left = MAX_ALL_BYTES
         self.files: dict[str, File] = {}
+        self.paths: list[Path] = []
 
     def take_faults(self) -> list[tuple[str, str]]:
         """Return the files that were named in those read since the last call and are missing, with the reasons."""
         faults, self._faults = self._faults, []
         return faults
 
-    def read(self, resource: str, path: Path | None, kinds: frozenset[str]) -> str:
-        """Return the digest of a file; UnreadableError with the reason if it cannot be shown."""
+    def read(self, resource: str, kinds: frozenset[str], folder: Path | None = None) -> str:
+        """Return the digest of a file; UnreadableError with the reason if it cannot be shown.
+
+        `folder` is that of the file that names it, None for one that the robot names.
+        """
         kind = kind_of(resource)
         if kind not in kinds:
             raise UnreadableError(f"the viewer does not show .{kind}, only .{', .'.join(sorted(kinds))}")
+        is_beside = folder is not None and "://" not in resource
+        path = folder / resource if folder and is_beside else self._finder.path(resource)
+        # Asked before the file is looked up, so that no reason reveals whether it exists.
+        if (path and not self._roots.hold(path)) or (not is_beside and resource in self._finder.forbidden):
+            raise UnreadableError(OUTSIDE)
         if path is None:
             raise UnreadableError(reason_not_found(self._robot, resource))
         if path not in self._digests:
+            self.paths.append(path)
             self._digests[path] = self._add(path, kind)
         return self._digests[path]
 
@@ -137,8 +159,6 @@ class _Reader:
         return digest
 
     def _content(self, path: Path) -> bytes:
-        if not self._roots.hold(path):
-            raise UnreadableError(OUTSIDE)
         content = read_bytes(path, min(MAX_BYTES, self._left), only_regular=True)
         if content is None:
             raise UnreadableError("the file is not found")
@@ -152,9 +172,8 @@ class _Reader:
     def _named_in(self, path: Path, kind: str, content: bytes) -> Iterator[tuple[str, str]]:
         """Yield the files that a file names, by their names in it, with their digests."""
         for name, place, kinds in named_files(kind, content):
-            found = find_file(self._robot, place) if "://" in place else path.parent / place
             try:
-                yield name, self.read(place, found, kinds)
+                yield name, self.read(place, kinds, path.parent)
             except UnreadableError as error:
                 self._faults.append((name, str(error)))
 

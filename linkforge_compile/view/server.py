@@ -9,10 +9,7 @@ import json
 import os
 import re
 import sys
-from base64 import b64encode
 from collections.abc import Callable, Mapping
-from hashlib import sha256
-from html.parser import HTMLParser
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from secrets import compare_digest, token_urlsafe
@@ -22,6 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.resources import manual_folder
+from linkforge_compile.view.policy import content_security_policy
 from linkforge_compile.view.scene import Scene
 from linkforge_compile.view.session import Session
 
@@ -76,49 +74,6 @@ def parse_choice(body: bytes) -> Choice:
     if variant is not None and not isinstance(variant, str):
         raise RefusedError("variant must be a text or null")
     return Choice({name: text for name, text in parameters.items() if text is not None}, variant)
-
-
-class _Scripts(HTMLParser):
-    """Finds the scripts that are in a page; data in elements of the same name is none."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.texts: list[str] = []
-        self._is_inside = False
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self._is_inside = tag == "script" and dict(attrs).get("type") != "application/json"
-        if self._is_inside:
-            self.texts.append("")
-
-    def handle_data(self, data: str) -> None:
-        if self._is_inside:
-            self.texts[-1] += data
-
-    def handle_endtag(self, tag: str) -> None:
-        self._is_inside = False
-
-
-def content_security_policy(page: str) -> str:
-    """Return the policy with which a page may use what it contains and this server, and nothing else."""
-    # By their hashes: text of a robot that got into the page as a script would not run.
-    parser = _Scripts()
-    parser.feed(page)
-    hashes = (b64encode(sha256(script.encode()).digest()).decode() for script in parser.texts)
-    scripts = " ".join(f"'sha256-{one}'" for one in hashes)
-    return "; ".join(
-        (
-            "default-src 'none'",
-            f"script-src 'self' {scripts}".rstrip(),
-            "style-src 'self' 'unsafe-inline'",
-            "img-src 'self' data: blob:",
-            "connect-src 'self' data: blob:",
-            "worker-src blob:",
-            "base-uri 'none'",
-            "form-action 'none'",
-            "frame-ancestors 'none'",
-        )
-    )
 
 
 class ViewServer(ThreadingHTTPServer):
@@ -222,7 +177,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _send_page(self) -> None:
         page = self.server.render(self.server.session.wait(0, FIRST).scene)
-        self._send(page.encode(), "text/html; charset=utf-8", content_security_policy(page))
+        self._send(page.encode(), "text/html; charset=utf-8", content_security_policy(page, has_server=True))
 
     def _send_events(self) -> None:
         """Send an event for each new state, the present one first, until the page or the session ends."""

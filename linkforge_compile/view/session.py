@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from itertools import chain
 from pathlib import Path
 from threading import Condition
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -14,7 +13,6 @@ from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.reports import Selection
 from linkforge_compile.expand import CliArgument
 from linkforge_compile.file_watcher import FileWatcher
-from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
 from linkforge_compile.listing import Listing
 from linkforge_compile.pipeline import parameters_of
 from linkforge_compile.view.files import RobotFiles, collect_files
@@ -113,8 +111,7 @@ def _with_scene(state: State, robot: Robot, view: SceneView | None) -> State:
     files = collect_files(robot)
     scene = make_scene(robot, files, view, is_live=True)
     scene["version"] = state.scene_version
-    shapes = places_of_files(robot, chain(mesh_paths(robot), texture_paths(robot)))
-    state = state._replace(watched=tuple(dict.fromkeys((*state.watched, *shapes))))
+    state = state._replace(watched=tuple(dict.fromkeys((*state.watched, *files.paths))))
     if scene == state.scene:
         return state
     scene["version"] = state.version

@@ -53,6 +53,8 @@ def test_it_prints_what_it_wrote_and_the_next_steps(tmp_path: Path):
     written = {line.removeprefix("wrote my-arm/") for line in lines if line.startswith("wrote ")}
     assert written == FILES
     assert lines[lines.index("next:") + 1] == "  cd my-arm"
+    assert lines[-2].startswith("docs/editors.md sets up the language server")
+    assert lines[-1] == "  pip install 'linkforge-compile[lsp]'"
     assert linkforge("init", "other", "--quiet", cwd=tmp_path).stderr == ""
     assert "cd " not in linkforge("init", "my-arm", "--dir", ".", cwd=tmp_path).stderr
 

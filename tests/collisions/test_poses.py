@@ -163,3 +163,13 @@ def colliding_in_pinocchio(positions: dict[str, float]) -> set[frozenset[str]]:
         return model.frames[shapes.geometryObjects[number].parentFrame].name
 
     return {frozenset((link(pair.first), link(pair.second))) for pair, result in pairs if result.isCollision()}
+
+
+def test_a_state_without_its_group_is_that_of_every_group(tmp_path: Path):
+    spec = BALLS.replace("groups: {arm: {joints: [slide]}}", "groups: {arm: {joints: [slide]}, all: {joints: [slide]}}")
+    spec = spec.replace("group_states: {", "group_states: {all: {away: {slide: 1}}, ")
+    done = poses(tmp_path, spec, "away")
+    assert (done.returncode, done.stdout) == (
+        0,
+        "all/away: no pairs in collision\narm/away: no pairs in collision\n",
+    ), done.stderr

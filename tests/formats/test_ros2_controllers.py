@@ -815,8 +815,8 @@ def test_the_manager_has_no_other_class_of_a_controller(parameters: str):
 def test_the_manager_has_no_value_under_the_name_of_a_controller(name: str, value: str):
     manager = f"controller_manager: {{parameters: {{{name}: {value}}}}}"
     assert reported(f"{ROBOT}controllers: {{{name}: {{type: a/B}}, {manager}}}\n") == [
-        f"LF7621 controller '{name}' has '{name}' in `parameters` of 'controller_manager', and `controllers` for the "
-        "same; remove one of them"
+        f"LF7621 controller '{name}' has '{name}' in `parameters` of 'controller_manager', which is a value and "
+        "no map of its parameters; remove it, or rename the controller"
     ]
 
 

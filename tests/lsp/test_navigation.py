@@ -123,3 +123,49 @@ def test_the_joint_of_a_repeated_module_is_declared_by_its_key(editor: Editor, r
     (robot / "cell.robot.yaml").write_text(cell)
     found = definition(editor, robot / "cell.robot.yaml", cell.replace("[left_joint]", "[left¦_joint]"))
     assert found == ["cell:6:$(s)"]
+
+
+BROKEN = [
+    ("parent: ba¦se", "parent: base", ["arm:5:base"]),
+    ("joints: [elb¦ow]", "joints: [elbow]", ["arm:8:elbow"]),
+    ("child: ti¦p, axis: [", "child: tip, axis: z", ["arm:6:tip"]),
+    ("{effort: 1, vel¦", "{effort: 1, vel", []),
+    ("  t¦ip: {}", "  tip: {}", ["arm:6:tip"]),
+]
+
+
+@pytest.mark.parametrize(("marked", "plain", "declared"), BROKEN)
+def test_declarations_are_found_in_a_text_that_does_not_parse(
+    editor: Editor, robot: Path, marked: str, plain: str, declared: list[str]
+):
+    """They are those of the last text that did, moved along with their lines."""
+    broken = ARM.replace(plain, marked, 1).replace("links:\n", "links: {\n# a line more\n")
+    (robot / "arm.robot.yaml").write_text(broken.replace("¦", ""))
+    assert definition(editor, robot / "arm.robot.yaml", broken) == declared
+
+
+def test_a_line_that_the_last_text_does_not_have_names_nothing(editor: Editor, robot: Path):
+    broken = ARM.replace("  tip: {}\n", "  tip: {}\n  elbow¦: [\n")
+    assert definition(editor, robot / "arm.robot.yaml", broken) == []
+    assert references(editor, robot / "arm.robot.yaml", broken) == []
+
+
+def test_uses_and_highlights_are_found_in_a_text_that_does_not_parse(editor: Editor, robot: Path):
+    file, broken = (
+        robot / "arm.robot.yaml",
+        ARM.replace("links:\n", "links: {\n").replace("joints: [el", "joints: [el¦"),
+    )
+    file.write_text(broken.replace("¦", ""))
+    assert references(editor, file, broken) == ["arm:7:elbow", "arm:9:elbow", "arm:10:elbow", "cell:10:left_elbow"]
+    text, position = split_at_cursor(broken)
+    params = types.DocumentHighlightParams(editor.open(file, text), position)
+    found = editor.ask(lambda client: client.text_document_document_highlight_async(params)) or []
+    assert [one.range.start.line + 1 for one in found] == [7, 9, 10]
+
+
+def test_a_malformed_file_that_a_spec_includes_keeps_its_declarations(editor: Editor, tmp_path: Path):
+    part, whole = tmp_path / "links.robot.yaml", tmp_path / "arm.robot.yaml"
+    part.write_text("linkforge: 1\nlinks:\n  base: {}\n  tip: {inertial: {mass: 1}}\n")
+    whole.write_text(ARM.replace("links:\n  base: {}\n  tip: {}\n", "include: [links.robot.yaml]\n"))
+    assert definition(editor, part, part.read_text().replace("tip", "ti¦p")) == ["links:4:tip"]
+    assert definition(editor, part, part.read_text().replace("tip", "ti¦p").replace("1}}", "1}")) == ["links:4:tip"]

@@ -87,8 +87,22 @@ def test_a_spec_with_errors_has_an_outline_of_what_was_read(editor: Editor, tmp_
     assert "tip (link) 5" in found
 
 
-def test_a_text_that_does_not_parse_has_no_outline(editor: Editor, tmp_path: Path):
-    assert outline(editor, tmp_path / "arm.robot.yaml", ARM + "links: [") == []
+def test_a_text_that_does_not_parse_has_the_outline_of_the_last_one_that_did(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    assert outline(editor, file, "links: [") == []
+    before = outline(editor, file, ARM)
+    assert outline(editor, file, ARM + "links: [") == before
+    moved = ["base (link) 6", "  elbow (revolute joint) 9", "    tip (link) 7", "all (group) 11", "home (state) 12"]
+    assert outline(editor, file, ARM.replace("links:\n", "# two\n# lines [\nlinks: [\n")) == moved
+
+
+def test_what_a_malformed_text_lacks_is_at_the_end_of_the_line_before(editor: Editor, tmp_path: Path):
+    file = tmp_path / "arm.robot.yaml"
+    assert "  elbow (revolute joint) 7" in outline(editor, file, ARM)
+    lines = ARM.splitlines()
+    found = outline(editor, file, "\n".join([*lines[:5], *lines[7:9], "  broken: [", *lines[9:]]))
+    assert "  elbow (revolute joint) 5" in found
+    assert "home (state) 9" in found
 
 
 def search(editor: Editor, query: str) -> list[str]:

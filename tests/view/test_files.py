@@ -119,6 +119,10 @@ def test_only_files_within_the_roots_are_read(tmp_path: Path):
         "it is outside of the folders that the robot may read"
     }
     assert len(files.missing) == 4
+    (outside / "secret.stl").unlink()
+    without = files_of(inside, *meshes).missing
+    assert [one[:2] for one in without] == [one[:2] for one in files.missing], "a reason reveals whether a file exists"
+    (outside / "secret.stl").write_bytes(b"solid s")
     assert len(files_of(inside, *meshes, allow_outside=True).missing) == 0
 
 

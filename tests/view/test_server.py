@@ -1,5 +1,6 @@
 """The server of a live viewer over HTTP: what it answers, and what it refuses."""
 
+import gc
 import http.client
 import json
 import socket
@@ -275,3 +276,17 @@ def test_pages_that_vanish_leave_no_threads(server: ViewServer, monkeypatch: pyt
 def test_a_port_that_is_not_free_is_an_error(server: ViewServer):
     with pytest.raises(OSError, match="in use"):
         ViewServer(server.session, lambda _: PAGE, server.server_port)
+
+
+def test_updates_leave_nothing_in_memory(server: ViewServer, spec: Path):
+    events, sizes = Events(server), [0]
+    events.next()
+    for number in range(220):
+        spec.write_text(SPEC.replace("part.stl}", f"part.stl, origin: [{number + 1}, 0, 0]}}"))
+        server.session.renew()
+        assert events.next()["scene"]["version"] == number + 2
+        if number in (20, 219):
+            gc.collect()
+            sizes.append(len(gc.get_objects()))
+    events.close()
+    assert sizes[2] - sizes[1] < 500  # a state has thousands

@@ -17,6 +17,7 @@ from linkforge_compile.cli.options import (
     settings_of,
     split_assignments,
 )
+from linkforge_compile.cli.poses import states_of
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 from linkforge_compile.cli.specs import FoundSpecs, SpecReport, count, find_parts, find_specs_of
 from linkforge_compile.source.characters import on_one_line
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from linkforge_compile.collisions.poses import Collision
     from linkforge_compile.collisions.sampling import SamplingSettings
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf import GroupState
 
 MAX_SHOWN = 20
 """The most pairs that `--check` lists."""
@@ -80,7 +80,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="poses",
         action="append",
         default=[],
-        help="print what collides in a state of a group, without sampling; once more for another one",
+        help="print what collides in a state of a group, or in STATE of every group that has it, without sampling; once"
+        " more for another one",
     )
     add_spec_options(parser)
     add_report_options(parser)
@@ -149,7 +150,7 @@ def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespac
     if compilation.robot is None:
         report(compilation.diagnostics, arguments)
         return FAULTY_SPEC
-    states, sink = _states(compilation.robot, arguments.poses), Diagnostics()
+    states, sink = states_of(compilation.robot, arguments.poses, "GROUP/STATE"), Diagnostics()
     found = find_collisions(compilation.robot, states.values(), sink)
     if report((*compilation.diagnostics, *group_alike(sink.sorted())), arguments):
         return FAULTY_SPEC
@@ -162,18 +163,6 @@ def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespac
         write_to_stdout("".join(f"{line}\n" for line in lines))
     are_free = all(one.disabled is not None for collisions in found for one in collisions)
     return OK if are_free else FAULTY_SPEC
-
-
-def _states(robot: Robot, poses: list[str]) -> dict[str, GroupState]:
-    """Return the states of groups that `--pose` names; UsageError for an unknown one."""
-    from linkforge_compile.diagnostics.grouping import join_names
-    from linkforge_compile.diagnostics.suggest import did_you_mean
-
-    known = {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
-    if unknown := next((pose for pose in poses if pose not in known), None):
-        hint = did_you_mean(unknown, known) or (f"; there are {join_names(known)}" if known else "")
-        raise UsageError(f"--pose takes GROUP/STATE; the robot has no state '{unknown}'{hint}")
-    return {pose: known[pose] for pose in poses}
 
 
 def _collision_lines(pose: str, collisions: Sequence[Collision]) -> Iterator[str]:

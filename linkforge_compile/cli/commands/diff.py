@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.diff_folders import in_common_folders
+from linkforge_compile.cli.diff_page import require_html, write_page
 from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
 from linkforge_compile.cli.options import add_format_options, add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report
@@ -41,6 +42,7 @@ examples:
   linkforge diff arm.robot.yaml --git HEAD~1            as it was in a revision of its git repository, and as it is
   linkforge diff arm.robot.yaml --before-package ur_description=../ur_description_2.1
   linkforge diff old.urdf new.urdf --json
+  linkforge diff arm.robot.yaml --git main --html -o diff.html       both robots over each other, changes in colors
   xacro arm.urdf.xacro | linkforge diff - arm.robot.yaml
 """
 
@@ -51,7 +53,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words", metavar="A B", nargs="+", help="the robot before and the one after; - for standard input"
     )
-    parser.add_argument("--json", action="store_true", help="as JSON, for tools")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="as JSON, for tools")
+    form.add_argument(
+        "--html", action="store_true", help="as a page with both robots over each other, which the browser opens"
+    )
+    parser.add_argument("-o", "--output", metavar="FILE.html", help="write the page of --html to this file")
     parser.add_argument(
         "--tolerance",
         type=_tolerance,
@@ -110,6 +117,7 @@ class _Comparison(NamedTuple):
 
 
 def run(arguments: argparse.Namespace) -> int:
+    require_html(arguments)
     words, assignments = split_assignments(arguments.words)
     if arguments.git is not None and words[:1] == ["-"]:
         raise UsageError("--git takes a file, not standard input")
@@ -152,7 +160,12 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
         compare(before, after, tolerance=tolerance, semantic=semantic),
         removed_public_names(before, after, semantic=semantic),
     )
-    write_to_stdout(_json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison)))
+    if arguments.html:
+        labels = (sides[0].label, sides[1].label)
+        write_page((before, after), labels, comparison.differences, arguments)
+    else:
+        text = _json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison))
+        write_to_stdout(text)
     return DIFFERENT if comparison.differences else OK
 
 

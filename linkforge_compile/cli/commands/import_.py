@@ -73,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
     output = imported_spec(urdf, arguments.output)
     from linkforge_compile.importing import import_urdf
 
-    with progress_after(urdf, arguments):
+    with progress_after(f"reading {urdf}", arguments):
         imported = import_urdf(
             STDIN if urdf == "-" else urdf,
             srdf=arguments.srdf,

@@ -85,6 +85,9 @@ def _next_steps(place: RobotFolder, name: str) -> list[str]:
         *enter,
         f"  linkforge compile {name}.robot.yaml -o build/",
         "  linkforge schema --workspace         when names have changed, so that editors offer them",
+        "",
+        "docs/editors.md sets up the language server, which needs no schema and shows what `linkforge check` reports:",
+        "  pip install 'linkforge-compile[lsp]'",
     ]
     for path, missing in place.missing(name).items():
         lines += ["", f"put into {path}:", *(f"  {line}" for line in missing)]

@@ -160,8 +160,7 @@ NO_SOLVER = Code(
 STATED_TWICE = Code(
     "LF7621",
     _E,
-    "controller '{controller}' has '{parameter}' in `parameters`{owner}, and `{field}` for the same; remove one of "
-    "them",
+    "controller '{controller}' has '{parameter}' in `parameters`{owner}, {conflict}",
 )
 ONE_OF_SEVERAL = Code(
     "LF7622",

@@ -67,8 +67,12 @@ def _check_stated_once(controller: Controller) -> Iterator[Diagnostic]:
         stated = stated_field(controller, field)
         if stated and name in controller.parameters:
             notes = [Note(f"`{stated}` is here", controller.source.at(stated))] if controller.source else []
-            facts = {"controller": controller.name, "parameter": name, "field": stated}
-            yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, owner="", **facts)
+            facts = {"controller": controller.name, "parameter": name, "owner": "", "conflict": _and_field(stated)}
+            yield STATED_TWICE.at(controller.source, "parameters", Key(name), notes=notes, **facts)
+
+
+def _and_field(field: str) -> str:
+    return f"and `{field}` for the same; remove one of them"
 
 
 def _check_names_of_values(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
@@ -77,8 +81,9 @@ def _check_names_of_values(manager: Controller, controller: Controller) -> Itera
         if key == controller.name and value is not None and not isinstance(value, Mapping):
             notes = [Note("the controller is here", controller.source.span)] if controller.source else []
             place = place_of_parameter(manager.source, "parameters", key)
+            conflict = "which is a value and no map of its parameters; remove it, or rename the controller"
             owner = f" of '{MANAGER}'"
-            yield STATED_TWICE.at(*place, notes=notes, controller=key, parameter=key, owner=owner, field="controllers")
+            yield STATED_TWICE.at(*place, notes=notes, controller=key, parameter=key, owner=owner, conflict=conflict)
 
 
 def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator[Diagnostic]:
@@ -88,7 +93,7 @@ def _check_loaded_class(manager: Controller, controller: Controller) -> Iterator
         if key == "type" and value != controller.type:
             notes = [Note("`type` is here", controller.source.at("type"))] if controller.source else []
             place = place_of_parameter(manager.source, "parameters", controller.name, key)
-            owner = f" of '{MANAGER}'"
+            owner, conflict = f" of '{MANAGER}'", _and_field("type")
             yield STATED_TWICE.at(
-                *place, notes=notes, controller=controller.name, parameter="type", owner=owner, field="type"
+                *place, notes=notes, controller=controller.name, parameter="type", owner=owner, conflict=conflict
             )

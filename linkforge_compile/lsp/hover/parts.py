@@ -20,7 +20,7 @@ from linkforge_compile.lsp.hover.text import MAX_SHOWN, RULE, and_more, bullets,
 from linkforge_compile.lsp.hover.values import quantity_of
 from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.lsp.occurrences import DECLARING, Occurrences
-from linkforge_compile.lsp.placed import is_malformed, uses_of
+from linkforge_compile.lsp.placed import uses_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.overview.joint_text import short
 from linkforge_compile.roots import identity
@@ -44,7 +44,7 @@ _LIMITS = {
 
 def show_parts(document: Document, at: Position, cursor: Cursor) -> str:
     """Return the parts that the name at a position names, in each use of the file; "" if it names none."""
-    named = _named_before(document, cursor) if is_malformed(document) else _named(document, at)
+    named = _named_before(document, cursor) if document.is_malformed else _named(document, at)
     texts = list(dict.fromkeys(text for one, analysis in named if (text := _describe(one, analysis))))
     return RULE.join(filter(None, (*texts[:MAX_SHOWN], and_more(len(texts) - MAX_SHOWN))))
 

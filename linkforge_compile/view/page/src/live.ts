@@ -8,7 +8,7 @@ export interface SettingsRequest {
 
 /** Show each update of the server, and whether the server can be reached. */
 export function listen(state: State): void {
-  const events = new EventSource("events");
+  const events = new EventSource(`events?version=${state.scene.version ?? 0}`); // which this page holds
   events.addEventListener("update", (event: MessageEvent<string>) => {
     state.reportConnection("");
     state.receive(JSON.parse(event.data) as Update);

@@ -1,24 +1,30 @@
 /** The page: it shows the scene that is in it, and what the user does with it. */
 import "./style.css";
+import "./picture.css";
 import { jointPositions } from "./kinematics";
 import { mountPanels } from "./panels/index";
-import { Robot } from "./robot";
+import { Picture } from "./picture";
 import type { Scene } from "./scene";
-import { LAYERS, State, type Layer } from "./state";
-import { Viewport } from "./viewport";
+import { LAYERS, State } from "./state";
 
 /** For tests, and for people at the browser's console. */
 export interface Console {
-  /** When everything is loaded and drawn. */
-  ready: Promise<void>;
+  /** When the last scene is loaded and drawn. */
+  readonly ready: Promise<void>;
   scene(): Scene;
   /** Of all movable joints, mimic joints too. */
-  positions(): Record<string, number>;
+  positions(): Readonly<Record<string, number>>;
   set(positions: Record<string, number>): void;
   /** The place of a link in the world: 16 numbers, row by row. */
   transform(link: string): number[];
+  /** The least and the largest corner of the visuals of a link in the world. */
+  extent(link: string): [number[], number[]];
+  /** The places of the links of the robot before, of a comparison, as far as they are drawn. */
+  before(): Record<string, number[]>;
   select(link: string | null): void;
-  layer(name: Layer, on: boolean): void;
+  layer(name: string, isShown: boolean): void;
+  /** How much the graphics card holds. */
+  memory(): { geometries: number; textures: number };
 }
 
 declare global {
@@ -29,29 +35,31 @@ declare global {
 
 function start(scene: Scene): Console {
   const state = new State(scene);
-  const viewport = new Viewport(document.getElementById("viewport")!);
-  let robot = new Robot(scene);
-  viewport.scene.add(robot.root);
-  robot.move(state.positions);
-  viewport.fit(robot.extent(), scene.view.camera);
-  state.listen((change) => {
-    if (change === "scene") {
-      viewport.scene.remove(robot.root);
-      robot = new Robot(state.scene);
-      viewport.scene.add(robot.root);
-    }
-    if (change === "scene" || change === "positions") robot.move(state.positions);
-    viewport.redraw();
-  });
-  if (scene.view.panels) mountPanels(state, { fit: () => viewport.fit(robot.extent()) });
+  const picture = new Picture(document.getElementById("viewport")!, state);
+  if (scene.view.panels) mountPanels(state, { fit: () => picture.fit() });
   return {
-    ready: Promise.resolve(viewport.draw()),
+    get ready() {
+      return picture.ready;
+    },
     scene: () => state.scene,
     positions: () => jointPositions(state.scene.joints, state.positions),
     set: (positions) => state.setPositions(positions),
-    transform: (link) => robot.transform(link).transpose().toArray(),
+    transform: (link) => picture.shown.transform(link).transpose().toArray(),
+    extent: (link) => {
+      const { min, max } = picture.shown.extentOf(link);
+      return [min.toArray(), max.toArray()];
+    },
+    before: () => {
+      const drawn = picture.compared?.drawn ?? [];
+      return Object.fromEntries(drawn.map(([link, place]) => [link, place.transpose().toArray()]));
+    },
     select: (link) => state.select(link),
-    layer: (name, on) => state.setLayer(LAYERS.find((layer) => layer === name) ?? "visuals", on),
+    layer: (name, isShown) => {
+      const layer = LAYERS.find((one) => one === name);
+      if (!layer) throw new Error(`there is no layer ${name}; there are ${LAYERS.join(", ")}`);
+      state.setLayer(layer, isShown);
+    },
+    memory: () => ({ ...picture.viewport.renderer.info.memory }),
   };
 }
 

@@ -115,6 +115,29 @@ export interface View {
   panels: boolean;
 }
 
+export type DifferenceKind = "added" | "removed" | "renamed" | "moved" | "changed";
+
+/** A difference from the robot before, and the link at which it is shown. */
+export interface Difference {
+  kind: DifferenceKind;
+  path: string;
+  text: string;
+  link: string | null;
+  is_whole: boolean;
+}
+
+/** The robot before, over which another one is shown; its files are with those of the scene. */
+export interface Comparison {
+  before: Scene;
+  labels: [before: string, after: string];
+  differences: Difference[];
+  /** What happened to a link, by its name in the robot after, or before for one that is gone. */
+  kinds: Record<string, DifferenceKind>;
+  /** New names by old ones. */
+  links: Record<string, string>;
+  joints: Record<string, string>;
+}
+
 /** A joint comes after the joint above its parent. */
 export interface Scene {
   name: string;
@@ -125,4 +148,7 @@ export interface Scene {
   missing: MissingFile[];
   view: View;
   live: boolean;
+  comparison?: Comparison;
+  /** That of the live viewer in which the scene was new. */
+  version?: number;
 }

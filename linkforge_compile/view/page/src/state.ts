@@ -7,7 +7,10 @@ export type Layer = (typeof LAYERS)[number];
 
 const FIRST_LAYERS: readonly Layer[] = ["visuals", "grid"];
 
-export type Change = "scene" | "positions" | "layers" | "selection" | "hidden" | "search" | "units" | "live";
+/** The robots of a comparison. */
+export type Side = "before" | "after";
+
+export type Change = "scene" | "positions" | "layers" | "sides" | "selection" | "hidden" | "search" | "units" | "live";
 type Listener = (change: Change) => void;
 
 export interface Problem extends Partial<Omit<Place, "file">> {
@@ -18,6 +21,8 @@ export interface Problem extends Partial<Omit<Place, "file">> {
   /** The address of the page that explains the code. */
   page?: string | null;
   hints?: string[];
+  /** The line at fault, with a mark under the words. */
+  snippet?: string;
 }
 
 export interface Parameter {
@@ -54,13 +59,12 @@ export class State {
   connection = "";
   problems: readonly Problem[] = [];
   settings: Settings = { parameters: [], variants: [], variant: null };
-  /** Whether the spec is faulty, so that an older robot is shown. */
-  isOutdated = false;
   #scene: Scene;
   #set: Record<string, number>;
   #positions: Positions;
   #layers: ReadonlySet<Layer>;
   #hidden: ReadonlySet<string> = new Set();
+  #sides: ReadonlySet<Side> = new Set(["before", "after"]);
   #selected: string | null = null;
   #search = "";
   #isInDegrees = true;
@@ -98,6 +102,11 @@ export class State {
   /** Names of the links that are not drawn. */
   get hidden(): ReadonlySet<string> {
     return this.#hidden;
+  }
+
+  /** Which robots of a comparison are drawn. */
+  get sides(): ReadonlySet<Side> {
+    return this.#sides;
   }
 
   /** The name of the selected link. */
@@ -141,6 +150,11 @@ export class State {
     this.#tell("layers");
   }
 
+  showSide(side: Side, isShown: boolean): void {
+    this.#sides = changed(this.#sides, side, isShown);
+    this.#tell("sides");
+  }
+
   hide(links: readonly string[], isHidden: boolean): void {
     for (const link of links) this.#hidden = changed(this.#hidden, link, isHidden);
     this.#tell("hidden");
@@ -168,7 +182,6 @@ export class State {
   receive(update: Update): void {
     this.problems = update.problems;
     this.settings = update.settings;
-    this.isOutdated = update.scene === null && update.problems.some((problem) => problem.severity === "error");
     if (update.scene) this.setScene(update.scene);
     this.#tell("live");
   }

@@ -1,28 +1,31 @@
-/** The picture: renderer, camera, lights, grid and the pointer. It draws only when something has changed. */
+/** The picture: renderer, camera and lights. It is drawn when something has changed, and only then. */
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Camera } from "./scene";
 
-const FIRST_VIEW = { azimuth: -40, elevation: 25 };
+/** From the front, the right and above; +x is ahead. */
+const FIRST_VIEW: Camera = { azimuth: -40, elevation: 22 };
+const BACKGROUND = 0xf1f4f8;
 
 export class Viewport {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
-  private readonly renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: false });
+  readonly camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
+  readonly renderer = new THREE.WebGLRenderer({ antialias: true });
+  /** Called after the picture is drawn. */
+  drawn: () => void = () => {};
   private readonly controls: OrbitControls;
   private waiting = 0;
+  private radius = 1;
 
-  constructor(private readonly element: HTMLElement) {
+  constructor(readonly element: HTMLElement) {
     this.camera.up.set(0, 0, 1);
-    this.scene.background = new THREE.Color(0xf2f4f7);
+    this.scene.background = new THREE.Color(BACKGROUND);
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     element.append(this.renderer.domElement);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.addEventListener("change", () => this.redraw());
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8d99, 2), this.camera);
-    const sun = new THREE.DirectionalLight(0xffffff, 2);
-    sun.position.set(1, 2, 3);
-    this.camera.add(sun);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.moved());
+    this.addLights();
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
   }
@@ -37,25 +40,54 @@ export class Viewport {
     cancelAnimationFrame(this.waiting);
     this.waiting = 0;
     this.renderer.render(this.scene, this.camera);
+    this.drawn();
   }
 
-  /** Look at all of a box, from where `camera` says or from the front, the right and above. */
+  /** Look at all of a box, from where `camera` says. */
   fit(box: THREE.Box3, camera: Camera = FIRST_VIEW): void {
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    const radius = Math.max(sphere.radius, 0.01) || 0.5;
-    const target = camera.target ? new THREE.Vector3(...camera.target) : sphere.center;
-    const angle = THREE.MathUtils.degToRad(this.camera.fov / 2);
-    const distance = camera.distance ?? radius / Math.sin(Math.atan(Math.tan(angle) * Math.min(1, this.camera.aspect)));
-    const azimuth = THREE.MathUtils.degToRad(camera.azimuth);
-    const elevation = THREE.MathUtils.degToRad(Math.min(Math.max(camera.elevation, -89.9), 89.9));
-    const flat = Math.cos(elevation);
-    const way = new THREE.Vector3(flat * Math.cos(azimuth), flat * Math.sin(azimuth), Math.sin(elevation));
-    this.camera.near = Math.max(distance / 1000, 1e-4);
-    this.camera.far = distance * 100 + radius * 10;
-    this.camera.updateProjectionMatrix();
+    this.radius = box.isEmpty() ? 0.5 : Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-3);
+    const middle = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3());
+    const target = camera.target ? new THREE.Vector3(...camera.target) : middle;
+    const way = wayTo(camera);
+    const distance = camera.distance ?? this.distanceTo(box, target, way);
     this.camera.position.copy(target).addScaledVector(way, distance);
     this.controls.target.copy(target);
     this.controls.update();
+    this.moved();
+  }
+
+  /** Return from how far all corners of a box are in the picture, with a margin. */
+  private distanceTo(box: THREE.Box3, target: THREE.Vector3, way: THREE.Vector3): number {
+    const right = new THREE.Vector3(0, 0, 1).cross(way).normalize();
+    const up = way.clone().cross(right);
+    const high = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * 0.86;
+    const wide = high * this.camera.aspect;
+    const size = box.isEmpty() ? new THREE.Vector3(1, 1, 1) : box.getSize(new THREE.Vector3());
+    const least = this.radius * 1.2;
+    return [0, 1, 2, 3, 4, 5, 6, 7].reduce((farthest, corner) => {
+      const sign = new THREE.Vector3(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+      const place = box.isEmpty() ? sign : box.getCenter(new THREE.Vector3()).add(sign.multiply(size)).sub(target);
+      const across = Math.max(Math.abs(place.dot(right)) / wide, Math.abs(place.dot(up)) / high);
+      return Math.max(farthest, across + place.dot(way));
+    }, least);
+  }
+
+  /** The lights turn with the camera, so that no side is dark. */
+  private addLights(): void {
+    const [key, fill] = [new THREE.DirectionalLight(0xffffff, 2.0), new THREE.DirectionalLight(0xdfe9ff, 0.6)];
+    key.position.set(-0.6, 1, 0.8);
+    fill.position.set(1, 0.1, 0.6);
+    for (const light of [key, fill]) this.camera.add(light, light.target);
+    const sky = new THREE.HemisphereLight(0xffffff, 0xc4c8d0, 1.4);
+    sky.position.set(0, 0, 1);
+    this.scene.add(sky, this.camera);
+  }
+
+  private moved(): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = Math.max(distance - this.radius * 4, distance / 200);
+    this.camera.far = distance + this.radius * 30;
+    this.camera.updateProjectionMatrix();
     this.redraw();
   }
 
@@ -67,4 +99,10 @@ export class Viewport {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
+}
+
+/** Return the direction from the target to the camera. */
+function wayTo({ azimuth, elevation }: Camera): THREE.Vector3 {
+  const [turn, rise] = [azimuth, Math.min(Math.max(elevation, -89.9), 89.9)].map(THREE.MathUtils.degToRad) as [number, number];
+  return new THREE.Vector3(Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise));
 }

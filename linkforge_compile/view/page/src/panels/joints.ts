@@ -2,7 +2,7 @@
 import { isFree, isMovable } from "../kinematics";
 import type { Joint } from "../scene";
 import type { State } from "../state";
-import { make, makeButton, makeSection, moduleTag } from "./elements";
+import { make, makeButton, makeSection } from "./elements";
 import { brief, positionUnit, shownLimits, shownPosition, sliderRange } from "./numbers";
 import { findsJoint } from "./search";
 
@@ -30,19 +30,24 @@ export function makeJoints(state: State): HTMLElement {
 }
 
 function makeTools(state: State): HTMLElement {
-  const units = makeButton("", "show angles in degrees or radians (u)", () => state.useDegrees(!state.isInDegrees));
-  const showUnits = (): void => {
-    units.replaceChildren(state.isInDegrees ? "deg" : "rad");
-  };
-  state.listen((change) => change === "units" && showUnits());
-  showUnits();
+  const units = [makeUnit("deg", true, state), makeUnit("rad", false, state)];
   return make(
     "div",
     { className: "tools" },
     makeButton("reset all", "move all joints to where they started (r)", () => state.setPositions(state.start)),
     makeButton("random", "move all joints to random positions within their limits (p)", () => moveAtRandom(state)),
-    units,
+    make("span", { className: "units", role: "group", ariaLabel: "unit of angles" }, ...units),
   );
+}
+
+function makeUnit(text: string, isInDegrees: boolean, state: State): HTMLButtonElement {
+  const button = makeButton(text, `show angles in ${text} (u)`, () => state.useDegrees(isInDegrees));
+  const show = (): void => {
+    button.ariaPressed = String(state.isInDegrees === isInDegrees);
+  };
+  state.listen((change) => change === "units" && show());
+  show();
+  return button;
 }
 
 /** Move each free joint to a random position within its limits. */
@@ -70,7 +75,7 @@ class JointRow {
     readonly joint: Joint,
     private readonly state: State,
   ) {
-    const { name, child, module } = joint;
+    const { name, child } = joint;
     const [least, most] = sliderRange(joint);
     const label = `position of ${name}`;
     const range = { min: String(least), max: String(most), step: "any" };
@@ -82,8 +87,9 @@ class JointRow {
     this.slider.oninput = () => state.setPositions({ [name]: this.slider.valueAsNumber });
     this.slider.ondblclick = () => this.moveToStart();
     this.number.onchange = () => this.readNumber();
-    const head = [this.name, ...moduleTag(module), this.number, this.unit, this.reset];
-    this.element = make("div", { className: "joint" }, make("div", { className: "line" }, ...head), this.slider);
+    const head = make("div", { className: "line" }, this.name, this.number, this.unit);
+    const body = make("div", { className: "line" }, this.slider, this.reset);
+    this.element = make("div", { className: "joint" }, head, body);
     if (joint.mimic) this.element.append(make("div", { className: "mimic" }, shownMimic(joint)));
     this.element.dataset["joint"] = name;
     this.show();

@@ -1,0 +1,92 @@
+"""The option `--pose`: states of planning groups, and positions of single joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli import UsageError
+from linkforge_compile.diagnostics.grouping import join_names
+from linkforge_compile.diagnostics.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.joint import Joint
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.srdf import GroupState
+
+
+def states_of(robot: Robot, poses: Iterable[str], accepted: str) -> dict[str, GroupState]:
+    """Return the states that `--pose` names, by GROUP/STATE; a STATE alone is that of every group that has it.
+
+    `accepted` are the forms of the option, for the message of the UsageError about an unknown state.
+    """
+    known = {f"{state.group}/{state.name}": state for state in robot.semantic.group_states}
+    found: dict[str, GroupState] = {}
+    for pose in poses:
+        named = {name: state for name, state in known.items() if pose in {name, state.name}}
+        if not named:
+            hint = did_you_mean(pose, (*known, *(state.name for state in known.values())))
+            hint = hint or (f"; there are {join_names(known)}" if known else "")
+            raise UsageError(f"--pose takes {accepted}; the robot has no state '{pose}'{hint}")
+        found |= named
+    return found
+
+
+def positions_of(robot: Robot, poses: Iterable[str]) -> dict[str, float]:
+    """Return the positions [rad] or [m] of joints that `--pose` names by states and by JOINT=VALUE, the last one wins.
+
+    UsageError for an unknown state or joint, and for a value that is none of the joint's.
+    """
+    positions: dict[str, float] = {}
+    for pose in poses:
+        name, separator, value = pose.partition("=")
+        if separator:
+            positions[name] = _position(_joint(robot, name), value, pose)
+            continue
+        for state in states_of(robot, [pose], "GROUP/STATE, STATE or JOINT=VALUE").values():
+            positions |= dict(_single_positions(state))
+    return positions
+
+
+def _single_positions(state: GroupState) -> Iterator[tuple[str, float]]:
+    for joint, values in state.joint_values.items():
+        if len(values) == 1 and isinstance(values[0], int | float):
+            yield joint, float(values[0])
+
+
+def _joint(robot: Robot, name: str) -> Joint:
+    from linkforge_compile.core.models.joint import SINGLE_AXIS
+
+    movable = {joint.name: joint for joint in robot.joints if joint.type in SINGLE_AXIS and not joint.mimic}
+    if name not in movable:
+        why = "has no position of its own" if robot.has_joint(name) else "is not a joint of the robot"
+        raise UsageError(f"--pose {name}=…: '{name}' {why}{did_you_mean(name, movable)}")
+    return movable[name]
+
+
+def _position(joint: Joint, text: str, pose: str) -> float:
+    from linkforge_compile.units import POSITION, number_text
+
+    unit = POSITION.text(joint.type.motion)
+    value = _number(text, unit)
+    if value is None:
+        raise UsageError(f"--pose {pose}: takes a number in {unit}, or with its unit, found '{text}'")
+    lower, upper = joint.bounds or (value, value)
+    if not lower <= value <= upper:
+        limits = f"from {number_text(lower)} to {number_text(upper)} {unit}"
+        raise UsageError(f"--pose {pose}: '{joint.name}' is {limits}")
+    return value
+
+
+def _number(text: str, unit: str) -> float | None:
+    """Return a number in an SI unit, of a text with or without a unit; None for any other text."""
+    from linkforge_compile.units import parse_quantity
+
+    if quantity := parse_quantity(text):
+        return quantity.value if quantity.dimension.si_unit == unit else None
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None

@@ -1,0 +1,166 @@
+"""The figures of a robot that are asked for first: counts, masses, sizes, files and parts by kind."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.core.resolver import FileSystemResolver
+from linkforge_compile.formats.groups import joints_by_group
+from linkforge_compile.formats.mesh_paths import mesh_paths, reason_not_found
+from linkforge_compile.overview.extent import Extent, measure_extent
+from linkforge_compile.overview.graph import module_boxes, walk_boxes
+from linkforge_compile.overview.reach import Reach, farthest, reaches_from, zero_poses
+from linkforge_compile.overview.tree import tree_rows
+from linkforge_compile.roots import ANYWHERE, is_file
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.poses import Pose
+
+
+class Mass(NamedTuple):
+    """The mass of all links [kg] and its centre in the frame of the root [m], None without mass; links without any."""
+
+    total: float
+    centre: tuple[float, ...] | None
+    links_without: Sequence[str]
+
+
+class MeshFile(NamedTuple):
+    """The file of a mesh as it is written, its size [bytes], and why it is not known if it is None."""
+
+    resource: str
+    size: int | None
+    missing: str | None
+
+
+class Part(NamedTuple):
+    """A part with its kind, and the link or the parts that it is about."""
+
+    name: str
+    kind: str
+    about: Sequence[str] = ()
+
+
+class Group(NamedTuple):
+    """A planning group with its joints, its states, and the reach of its chain, None for a group of another kind."""
+
+    name: str
+    joints: Sequence[str]
+    states: Sequence[str]
+    reach: Reach | None
+
+
+class Figures(NamedTuple):
+    """What `linkforge info` shows.
+
+    - `joints`: how many there are of each type; `degrees_of_freedom` leaves out joints that follow others.
+    - `reach`: that of the link that may get farthest from the root, which is not below planar and floating joints.
+    - `modules`: names of modules, and of those in them after a slash, with the number of their links.
+    """
+
+    name: str
+    root: str
+    links: int
+    joints: Mapping[str, int]
+    degrees_of_freedom: int
+    mimics: int
+    mass: Mass
+    reach: Reach
+    extent: Extent
+    meshes: Sequence[MeshFile]
+    sensors: Sequence[Part]
+    hardware: Sequence[Part]
+    controllers: Sequence[Part]
+    groups: Sequence[Group]
+    end_effectors: Sequence[Part]
+    modules: Mapping[str, int]
+
+
+def figures_of(robot: Robot) -> Figures:
+    """Return the figures of a robot that is one tree; every file of a mesh is read if its library is installed."""
+    poses = zero_poses(robot)
+    root = next(iter(poses))
+    files = mesh_files(robot)
+    modules = [box for box in walk_boxes(module_boxes(tree_rows(robot))) if box.module]
+    semantic = robot.semantic
+    return Figures(
+        name=robot.name,
+        root=root,
+        links=len(robot.links),
+        joints=Counter(str(joint.type) for joint in robot.joints),
+        degrees_of_freedom=sum(joint.degrees_of_freedom for joint in robot.joints if not joint.mimic),
+        mimics=sum(1 for joint in robot.joints if joint.mimic),
+        mass=mass_of(robot, poses),
+        reach=farthest(reaches_from(robot, root)),
+        extent=measure_extent(robot, poses, files),
+        meshes=[_mesh_file(resource, file) for resource, file in files.items()],
+        sensors=[Part(one.name, str(one.type), (one.link_name,)) for one in robot.sensors],
+        hardware=[
+            Part(one.name, f"{one.type} {one.hardware_plugin}", tuple(joint.name for joint in one.joints))
+            for one in robot.ros2_controls
+        ],
+        controllers=[Part(one.name, one.type, one.joints) for one in robot.controllers if one.type],
+        groups=_groups(robot),
+        end_effectors=[Part(one.name, one.group, (one.parent_link,)) for one in semantic.end_effectors],
+        modules={"/".join(box.module): len(box.links) for box in modules},
+    )
+
+
+def mass_of(robot: Robot, poses: Mapping[str, Pose]) -> Mass:
+    """Return the mass of a robot and its centre, with the links at some poses."""
+    bodies = [(link.mass, poses[link.name], link.inertial_origin) for link in robot.links if link.mass]
+    total = sum(mass for mass, _, _ in bodies)
+    centre = None
+    if total:
+        placed = []
+        for mass, pose, origin in bodies:
+            turned = pose.turn.turned(origin.xyz.to_tuple())
+            placed.append([mass * (at + inside) for at, inside in zip(pose.xyz, turned, strict=True)])
+        centre = tuple(sum(axis) / total for axis in zip(*placed, strict=True))
+    return Mass(total, centre, [link.name for link in robot.links if not link.mass])
+
+
+def mesh_files(robot: Robot) -> dict[str, Path | str]:
+    """Return the file of each mesh as it is written, or the reason why there is none."""
+    return {one.resource: _checked(robot, one.resource, one.path) for one in mesh_paths(robot)}
+
+
+def _checked(robot: Robot, resource: str, path: Path | None) -> Path | str:
+    """Return the file of a mesh, or the reason why there is none that may be read."""
+    resolver = robot.resource_resolver
+    roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
+    if path and not roots.hold(path):
+        return "it is outside of the folders that a spec may read; use --allow-outside"
+    return path if path and is_file(path) else reason_not_found(robot, resource)
+
+
+def _mesh_file(resource: str, file: Path | str) -> MeshFile:
+    if isinstance(file, str):
+        return MeshFile(resource, None, file)
+    return MeshFile(resource, file.stat().st_size, None)
+
+
+def _groups(robot: Robot) -> list[Group]:
+    semantic, by_group = robot.semantic, joints_by_group(robot)
+    states = [(state.group, state.name) for state in semantic.group_states]
+    return [
+        Group(
+            group.name,
+            [joint.name for joint in by_group.get(group.name, ())],
+            [state for owner, state in states if owner == group.name],
+            _reach_of_chain(robot, [(chain.base_link, chain.tip_link) for chain in group.chains]),
+        )
+        for group in semantic.groups
+    ]
+
+
+def _reach_of_chain(robot: Robot, chains: Iterable[tuple[str, str]]) -> Reach | None:
+    """Return the reach of the tip of one chain from its base; None for several chains, and one that leads upwards."""
+    match list(chains):
+        case [(base, tip)]:
+            return reaches_from(robot, base).get(tip)
+    return None

@@ -1,0 +1,69 @@
+/** What is wrong with the spec, its meshes or the connection, over the picture. */
+import type { MissingFile } from "../scene";
+import type { Problem, State } from "../state";
+import { make } from "./elements";
+import { shownPlace } from "./numbers";
+
+export function makeProblems(state: State): HTMLElement {
+  const summary = make("summary");
+  const list = make("ul");
+  const overlay = make("details", { className: "problems" }, summary, list);
+  let wasFaulty = false;
+  const show = (): void => {
+    const all = [...state.problems, ...missingFiles(state)];
+    const heading = headingOf(state, all);
+    overlay.hidden = heading === "";
+    summary.replaceChildren(heading);
+    list.replaceChildren(...all.map(makeItem));
+    const isFaulty = all.some(({ severity }) => severity === "error");
+    if (isFaulty && !wasFaulty) overlay.open = true;
+    wasFaulty = isFaulty;
+    overlay.classList.toggle("grave", isFaulty || state.connection !== "");
+  };
+  summary.setAttribute("role", "status");
+  state.listen((change) => (change === "live" || change === "scene") && show());
+  show();
+  return overlay;
+}
+
+/** Return the missing files as problems, one for each reason. */
+function missingFiles(state: State): Problem[] {
+  const byReason = new Map<string, MissingFile[]>();
+  for (const file of state.scene.missing) byReason.set(file.reason, [...(byReason.get(file.reason) ?? []), file]);
+  return [...byReason].map(([reason, files]) => ({
+    severity: "warning",
+    code: "",
+    message: `${counted(files.length, "file")} missing, drawn as boxes: ${reason}`,
+    hints: files.map(({ file, links, source }) => `${file} of ${links.join(", ")}${source ? ` at ${shownPlace(source)}` : ""}`),
+  }));
+}
+
+function headingOf(state: State, all: readonly Problem[]): string {
+  const errors = all.filter(({ severity }) => severity === "error").length;
+  const parts = [state.connection, counted(errors, "error"), counted(all.length - errors, "warning")];
+  if (errors) parts.push(state.scene.links.length ? "the last good robot is shown" : "no robot can be shown yet");
+  return parts.filter(Boolean).join(" · ");
+}
+
+function counted(count: number, what: string): string {
+  if (count === 0) return "";
+  return `${count} ${what}${count === 1 ? "" : "s"}`;
+}
+
+function makeItem(problem: Problem): HTMLElement {
+  const { severity, code, message, file, line, column, page, hints = [], snippet } = problem;
+  const head = make("div", {}, make("b", { className: severity }, severity), " ", ...shownCode(code, page), " ", message);
+  const item = make("li", { className: severity }, head);
+  if (file) item.append(make("code", {}, shownPlace({ file, line: line ?? 1, column: 1 }) + (column ? `:${column}` : "")));
+  if (snippet) item.append(make("pre", {}, snippet));
+  for (const hint of hints) item.append(make("div", { className: "hint" }, hint));
+  return item;
+}
+
+/** Return the code, linked to its page, which the server has or the web; no other address is opened from here. */
+function shownCode(code: string, page: string | null | undefined): HTMLElement[] {
+  if (!code) return [];
+  const isSafe = page && ["http:", "https:"].includes(new URL(page, document.baseURI).protocol);
+  if (!page || !isSafe) return [make("code", {}, code)];
+  return [make("a", { href: page, target: "_blank", rel: "noreferrer" }, code)];
+}

@@ -1,0 +1,185 @@
+"""A picture of a page, drawn by a browser of this machine without a window and without its graphics card."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+VARIABLE = "LINKFORGE_BROWSER"
+"""The environment variable that names the browser, with options if it needs some."""
+
+PROGRAMS = (
+    *("google-chrome", "google-chrome-stable", "chromium", "chromium-browser"),
+    *("microsoft-edge", "microsoft-edge-stable", "msedge", "chrome"),
+)
+
+_MACOS = (
+    "Google Chrome.app/Contents/MacOS/Google Chrome",
+    "Chromium.app/Contents/MacOS/Chromium",
+    "Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+)
+_WINDOWS = ("Google/Chrome/Application/chrome.exe", "Microsoft/Edge/Application/msedge.exe")
+_WINDOWS_FOLDERS = ("ProgramFiles", "ProgramFiles(x86)", "LocalAppData")
+
+TIME_LIMIT = 180.0
+"""How long a browser may draw a picture [s]."""
+
+_OPTIONS = (
+    "--headless",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--force-device-scale-factor=1",
+    "--force-color-profile=srgb",
+    "--hide-scrollbars",
+    "--enable-logging=stderr",
+    "--no-first-run",
+    "--no-default-browser-check",
+    "--disable-extensions",
+    "--disable-sync",
+    "--disable-component-update",
+    "--disable-background-networking",
+    "--disable-dev-shm-usage",
+    "--host-resolver-rules=MAP * ~NOTFOUND",
+)
+
+_DONE, _FAILED = "linkforge: drawn", "linkforge: failed: "
+
+WAIT = f"""<script>
+(() => {{
+  const inner = document.createElement("iframe");
+  inner.hidden = true;
+  document.body.append(inner);
+  inner.contentDocument.open();
+  const end = (message) => {{
+    console.log(message);
+    inner.contentDocument.close();
+    inner.remove();
+  }};
+  const ready = window.linkforge?.ready ?? Promise.reject("the page did not start");
+  ready.then(() => end("{_DONE}"), (error) => end("{_FAILED}" + error));
+}})();
+</script>
+"""
+"""The end of a page of which a picture is drawn: a browser draws it once the page is loaded, which an open document
+inside of the page delays until the robot is drawn."""
+
+_MESSAGE = re.compile(r':CONSOLE[:(\d)]*\] "(.*)", source: ')
+
+
+class Size(NamedTuple):
+    """The width and height of a picture [pixels]."""
+
+    width: int
+    height: int
+
+
+class PictureError(Exception):
+    """There is no browser, or it draws no picture; the message has the reason and the way out."""
+
+
+def find_browser() -> Sequence[str]:
+    """Return the command of a browser.
+
+    Raises:
+        PictureError: There is none; it names those that were looked for.
+
+    """
+    if words := os.environ.get(VARIABLE):
+        command = [words] if shutil.which(words) else shlex.split(words)
+        if command and shutil.which(command[0]):
+            return command
+        raise PictureError(f"there is no program '{words}', which {VARIABLE} names")
+    found = next(filter(None, map(shutil.which, (*PROGRAMS, *_usual_places()))), None)
+    if found is None:
+        raise PictureError(
+            f"a picture needs Chrome, Chromium or Edge, and there is none of {', '.join(PROGRAMS)}; "
+            f"install one, or name one in {VARIABLE}"
+        )
+    return [found]
+
+
+def _usual_places() -> Iterator[str]:
+    """Yield where macOS and Windows have browsers, which are not on the PATH there."""
+    for applications in (Path("/Applications"), Path.home() / "Applications"):
+        yield from (str(applications / place) for place in _MACOS)
+    for programs in filter(None, map(os.environ.get, _WINDOWS_FOLDERS)):
+        yield from (str(Path(programs) / place) for place in _WINDOWS)
+
+
+def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: float = TIME_LIMIT) -> bytes:
+    """Return a PNG of a page that ends with WAIT, once all that it shows is loaded.
+
+    Raises:
+        PictureError: The browser cannot draw it, or not within the time limit [s].
+
+    """
+    with TemporaryDirectory(prefix="linkforge-", dir=_folder_for(browser), ignore_cleanup_errors=True) as name:
+        folder = Path(name)
+        page, picture, log = folder / "page.html", folder / "picture.png", folder / "log.txt"
+        page.write_text(html, "utf-8")
+        options = (f"--user-data-dir={folder / 'profile'}", f"--window-size={size.width},{size.height}")
+        command = [*browser, *_OPTIONS, *_sandbox(), *options, f"--screenshot={picture}", page.as_uri()]
+        _run(command, log, time_limit)
+        messages = log.read_text("utf-8", "replace")
+        if f'"{_DONE}"' not in messages or not picture.is_file():
+            raise PictureError(f"{Path(browser[0]).name} drew no picture: {_reason(messages)}")
+        return picture.read_bytes()
+
+
+def _folder_for(browser: Sequence[str]) -> Path | None:
+    """Return the folder for temporary files; None for the usual one, of which a snap has a copy of its own."""
+    program = Path(browser[0])
+    folder = Path.home() / "snap" / program.name / "common"
+    return folder if program.parts[:2] == ("/", "snap") and folder.is_dir() else None
+
+
+def _sandbox() -> Iterator[str]:
+    """The sandbox does not start for root, as whom containers run."""
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        yield "--no-sandbox"
+
+
+def _run(command: Sequence[str], log: Path, time_limit: float) -> None:
+    """Run a browser and end it with all processes that it starts, which could outlive it."""
+    with log.open("wb") as stderr:
+        try:
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=stderr, stderr=stderr, start_new_session=True
+            )
+        except OSError as error:
+            raise PictureError(f"'{command[0]}' does not start: {error.strerror}") from error
+        try:
+            process.wait(time_limit)
+        except subprocess.TimeoutExpired as error:
+            name = Path(command[0]).name
+            raise PictureError(f"{name} did not draw the picture within {time_limit:.0f} s") from error
+        finally:
+            _end(process)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    if hasattr(os, "killpg"):
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.kill()
+    process.wait()
+
+
+def _reason(log: str) -> str:
+    """Return why there is no picture, by what the browser printed."""
+    if "No usable sandbox" in log:
+        return f"its sandbox does not start on this machine; {VARIABLE}='chromium --no-sandbox' leaves it out"
+    messages = _MESSAGE.findall(log)
+    if messages:
+        return str(messages[-1]).removeprefix(_FAILED)
+    return next((line for line in reversed(log.splitlines()) if line.strip()), "it printed nothing")

@@ -1,0 +1,189 @@
+"""The live viewer in a real browser: what a person sees while a spec is edited."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.view.viewer import Viewer
+
+SPEC = """\
+linkforge: 1
+name: arm
+parameters:
+  reach: {type: length, default: 1 m, minimum: 10 cm, maximum: 3 m}
+links:
+  base: {visual: {box: [10 cm, 10 cm, $(reach)]}}
+  hand: {visual: {sphere: 5 cm}}
+joints:
+  turn:
+    type: revolute
+    parent: base
+    child: hand
+    axis: z
+    origin: [0, 0, $(reach)]
+    limits: {lower: -90 deg, upper: 90 deg, effort: 1 N*m, velocity: 1 rad/s}
+"""
+
+pytestmark = [
+    pytest.mark.usefixtures("page"),
+    pytest.mark.skipif(sys.platform != "linux", reason="the browser of CI is that of Linux"),
+]
+
+OPTIONS = (
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
+)
+
+
+@pytest.fixture(scope="module")
+def chromium(browser: Sequence[str]) -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        program, *options = browser
+        launched = playwright.chromium.launch(executable_path=program, args=[*options, *OPTIONS])
+        yield launched
+        launched.close()
+
+
+@pytest.fixture
+def spec(tmp_path: Path) -> Path:
+    path = tmp_path / "arm.robot.yaml"
+    path.write_text(SPEC)
+    return path
+
+
+@pytest.fixture
+def viewer(spec: Path) -> Iterator[Viewer]:
+    viewer = Viewer(spec.name, cwd=spec.parent)
+    yield viewer
+    viewer.close()
+
+
+@pytest.fixture
+def tab(chromium: Browser, viewer: Viewer) -> Iterator[Page]:
+    """A tab with the viewer; it may ask for nothing else, and its script may not fail."""
+    tab, asked, failures = chromium.new_page(), list[str](), list[str]()
+    tab.on("request", lambda request: asked.append(request.url))
+    tab.on("pageerror", lambda error: failures.append(str(error)))
+    tab.on("console", lambda message: failures.append(message.text) if "Content Security" in message.text else None)
+    open_viewer(tab, viewer)
+    yield tab
+    tab.close()
+    assert {url for url in asked if not url.startswith((viewer.url, "blob:", "data:"))} == set()
+    assert failures == []
+
+
+def open_viewer(tab: Page, viewer: Viewer) -> None:
+    tab.goto(viewer.url)
+    tab.evaluate("window.linkforge.ready")
+
+
+def wait_until_hand_is_at(tab: Page, height: float) -> None:
+    """Wait until the link `hand` is at a height in the world [m]."""
+    has_hand = "window.linkforge.scene().links.some(({name}) => name === 'hand')"
+    is_there = "Math.abs(window.linkforge.transform('hand')[11] - height) < 1e-6"
+    tab.wait_for_function(f"height => {has_hand} && {is_there}", arg=height)
+
+
+def test_an_edit_moves_a_link_and_the_joints_stay_where_they_are(tab: Page, spec: Path):
+    wait_until_hand_is_at(tab, 1)
+    tab.evaluate("window.linkforge.set({turn: 0.5})")
+    spec.write_text(SPEC.replace("default: 1 m", "default: 2 m"))
+    wait_until_hand_is_at(tab, 2)
+    assert tab.evaluate("window.linkforge.positions()") == {"turn": 0.5}
+
+
+def test_faults_are_shown_over_the_last_robot_until_they_are_corrected(tab: Page, spec: Path):
+    problems = tab.locator(".problems")
+    expect(problems).to_be_hidden()
+    spec.write_text(SPEC.replace("child: hand", "child: hnd"))
+    expect(problems).to_be_visible()
+    expect(problems).to_contain_text("no link named 'hnd'; did you mean 'hand'?")
+    expect(problems).to_contain_text("LF4102")
+    expect(problems).to_contain_text(f"{spec.name}:12:12")
+    expect(problems).to_contain_text("the last good robot is shown")
+    wait_until_hand_is_at(tab, 1)
+    with tab.expect_popup() as manual:
+        problems.get_by_role("link", name="LF4102").click()
+    expect(manual.value.locator("body")).to_contain_text("# LF4102")
+    spec.write_text(SPEC)
+    expect(problems).to_be_hidden()
+
+
+def test_a_parameter_changes_the_robot_in_all_tabs(tab: Page, viewer: Viewer):
+    other = tab.context.browser.new_page()
+    open_viewer(other, viewer)
+    reach = tab.locator("[data-parameter=reach] input[name=reach]")
+    reach.fill("2.5 m")
+    reach.press("Enter")
+    for page in (tab, other):
+        wait_until_hand_is_at(page, 2.5)
+        expect(page.locator("[data-parameter=reach] input[name=reach]")).to_have_value("2.5 m")
+    other.close()
+
+
+def test_a_value_that_the_spec_refuses_is_a_problem_and_the_robot_stays(tab: Page):
+    reach = tab.locator("[data-parameter=reach] input[name=reach]")
+    reach.fill("3 kg")
+    reach.press("Enter")
+    expect(tab.locator(".problems")).to_contain_text("parameter 'reach' takes a length")
+    wait_until_hand_is_at(tab, 1)
+    reach.fill("2 m")
+    reach.press("Enter")
+    expect(tab.locator(".problems")).to_be_hidden()
+    wait_until_hand_is_at(tab, 2)
+
+
+def test_a_spec_with_errors_from_the_start_shows_its_robot_once_it_is_corrected(chromium: Browser, spec: Path):
+    spec.write_text(SPEC.replace("child: hand", "child: hnd"))
+    viewer = Viewer(spec.name, cwd=spec.parent)
+    tab = chromium.new_page()
+    open_viewer(tab, viewer)
+    expect(tab.locator(".problems")).to_contain_text("LF4102")
+    expect(tab.locator(".problems")).to_contain_text("no robot can be shown yet")
+    spec.write_text(SPEC)
+    wait_until_hand_is_at(tab, 1)
+    expect(tab.locator(".problems")).to_be_hidden()
+    tab.close()
+    viewer.close()
+
+
+def test_the_page_reports_that_the_server_has_ended(tab: Page, viewer: Viewer):
+    expect(tab.locator(".problems")).to_be_hidden()
+    assert viewer.interrupt() == 130
+    expect(tab.locator(".problems")).to_contain_text("the server has ended")
+    wait_until_hand_is_at(tab, 1)
+
+
+def test_a_killed_browser_leaves_no_threads(browser: Sequence[str], viewer: Viewer, tmp_path: Path):
+    tasks = Path(f"/proc/{viewer.process.pid}/task")
+    before = len(list(tasks.iterdir()))
+    words = [
+        *browser,
+        "--headless",
+        "--no-first-run",
+        f"--user-data-dir={tmp_path / 'profile'}",
+        "--remote-debugging-port=0",
+    ]
+    options = [*OPTIONS, *(["--no-sandbox"] if os.geteuid() == 0 else [])]
+    process = subprocess.Popen([*words, *options, viewer.url], start_new_session=True, stderr=subprocess.DEVNULL)
+    wait_until(lambda: len(list(tasks.iterdir())) > before)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    wait_until(lambda: len(list(tasks.iterdir())) <= before)
+
+
+def wait_until(is_done: object, seconds: float = 60) -> None:
+    """Wait for a condition; fail after a time."""
+    assert callable(is_done)
+    end = time.monotonic() + seconds
+    while not is_done():
+        assert time.monotonic() < end
+        time.sleep(0.1)
