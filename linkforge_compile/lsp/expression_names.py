@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand import Instance
 from linkforge_compile.expressions import Expression, parse_template
 from linkforge_compile.load import SpecFile
+from linkforge_compile.lsp.module_entries import unused_entries, used_entries
 from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
@@ -32,11 +33,15 @@ def names_in(instance: Instance) -> Iterator[Occurrence]:
     for variant in spec.tree.section("variants").values():
         yield from _set(variant.value, known)
     yield from _in_node(spec.tree, known)
-    entries = {entry.key.span: entry.value for entry in spec.tree.section("modules").values()}
-    for module in instance.modules:
-        entry = entries.get(module.entry.span) if module.entry else None
-        if module.spec is not None and isinstance(entry, YamlMap):
-            yield from _set(entry.get("with"), {one.written: one for one in _declared(module.spec)})
+    for used in used_entries(instance, ""):
+        if used.module.spec is not None:
+            yield from _set(used.fields.get("with"), {one.written: one for one in _declared(used.module.spec)})
+    for unused in unused_entries(instance, ""):
+        fields = unused.entry.value
+        values = fields.get("with") if isinstance(fields, YamlMap) else None
+        for entry in values if isinstance(values, YamlMap) else ():
+            # The file is not read, so that a name of another kind is not known to be none.
+            yield _declaration("parameter", entry.key, identity(unused.path))._replace(is_declaration=False)
 
 
 def _declared(spec: SpecFile) -> Iterator[Occurrence]:

@@ -11,6 +11,8 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics.fix import Edit
+from linkforge_compile.lsp.changes import workspace_edit
 from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import path_of
@@ -21,7 +23,8 @@ from linkforge_compile.lsp.hover import hover
 from linkforge_compile.lsp.inlay_hints import HintOptions, inlay_hints
 from linkforge_compile.lsp.last_read import as_last_read
 from linkforge_compile.lsp.navigation import declarations_of, highlights, references_to
-from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.rename import rename
+from linkforge_compile.lsp.renaming import RefusedError, renamed_at
 from linkforge_compile.lsp.semantic_tokens import LEGEND, semantic_tokens
 from linkforge_compile.lsp.server import DEBOUNCE, SpecServer
 from linkforge_compile.lsp.symbols import find_symbols, outline
@@ -176,14 +179,19 @@ def _add_rename(server: SpecServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def _rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
-        folders = server.folders
+        folders, generation = server.folders, server.specs.generation
 
-        def renamed(document: Document, settings: Settings) -> types.WorkspaceEdit | None:
+        def renamed(document: Document, settings: Settings) -> tuple[Edit, ...] | None:
             at = document.place(params.position)
-            return rename(with_users(document, folders, settings), at, params.new_name, settings)
+            return rename(with_users(document, folders, settings), at, params.new_name, settings, folders)
 
         with _refusals():
-            return await server.answer(params.text_document.uri, renamed)
+            edits = await server.answer(params.text_document.uri, renamed)
+            if generation != server.specs.generation:
+                raise RefusedError("the workspace changed meanwhile; try again")
+        if edits is None:
+            return None
+        return workspace_edit(edits, server.specs.versions, server.columns, server.client_capabilities)
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from linkforge_compile.source import Span
+from linkforge_compile.syntax import has_expression
 
 
 class Occurrence(NamedTuple):
@@ -28,3 +29,8 @@ class Occurrence(NamedTuple):
     def named(self) -> tuple[str, str, str]:
         """What the name names: the same for all of its occurrences."""
         return self.kind, self.name, self.scope
+
+    @property
+    def is_computed(self) -> bool:
+        """Whether an expression makes the name."""
+        return has_expression(self.span.text or "")

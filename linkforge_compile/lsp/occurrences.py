@@ -1,7 +1,7 @@
 """Every place where a spec and its modules write a name: where it is declared and where it is used.
 
 What the name of a part names is marked in the schemas; the names themselves are read in the expanded trees, whose
-places lead to the texts.
+places lead to the texts. What these lack, since a `when` leaves it out or something replaces it, is read as written.
 """
 
 from __future__ import annotations
@@ -14,7 +14,9 @@ from linkforge_compile.editor.completions import KEYS, NAMES, marked_names
 from linkforge_compile.expand import Instance
 from linkforge_compile.expand.instance import joint_name_of
 from linkforge_compile.lsp.expression_names import SECTIONS, names_in
+from linkforge_compile.lsp.module_entries import used_entries
 from linkforge_compile.lsp.occurrence import Occurrence
+from linkforge_compile.lsp.unconditional import unconditional_tree
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.json_schema import Schema, branches, mapping, reference
 from linkforge_compile.schema.registry import definitions
@@ -48,6 +50,7 @@ class Occurrences:
     """The occurrences of an analysis, by name and by place."""
 
     def __init__(self, analysis: Analysis) -> None:
+        self.analysis = analysis
         found = _in_instance(analysis.instance, "") if analysis.instance else ()
         self.all = tuple(_resolved(dict.fromkeys(found)))
 
@@ -88,31 +91,45 @@ def _in_instance(instance: Instance, outer: str) -> Iterator[Occurrence]:
     """Yield the occurrences in a use of a file, whose entry is written in the file around it, and in its modules."""
     prefix = outer + instance.prefix
     yield from names_in(instance)
+    computed = tuple(_computed(instance, prefix))
+    yield from computed
+    places = {one.span for one in computed}
+    yield from (one for one in _written(instance, prefix) if one.span not in places and not one.is_computed)
+    if (tree := unconditional_tree(instance)) is not None:
+        yield from _Walker(prefix).in_robot(tree)
+    for module in instance.modules:
+        yield from _in_instance(module, prefix)
+
+
+def _computed(instance: Instance, prefix: str) -> Iterator[Occurrence]:
+    """Yield the occurrences in the expanded tree of a use of a file, and in the entries of its modules."""
+    walker = _Walker(prefix)
     if instance.tree is not None:
-        walker = _Walker(prefix)
-        yield from walker.declarations(instance.tree)
-        yield from walker.references(instance.tree, definitions()["robot"])
+        yield from walker.in_robot(instance.tree)
         for override in instance.overrides:
-            yield from (one._replace(is_declaration=False) for one in walker.declarations(override))
-            yield from walker.references(override, definitions()["robot"])
+            yield from walker.in_override(override)
         for one in instance.references:
             yield Occurrence(one.kind, prefix + one.name, one.name, one.where.span)
     for module in instance.modules:
         if module.entry is not None and isinstance(module.entry.node, YamlMap):
-            yield from _in_entry(module, module.entry.node, prefix)
-        yield from _in_instance(module, prefix)
+            if isinstance(module.entry.key, YamlScalar):
+                yield from walker.in_entry(module.name, module.entry.key.span, module.entry.node)
+            else:
+                yield from walker.references(module.entry.node, definitions()["module"])
 
 
-def _in_entry(module: Instance, entry: YamlMap, prefix: str) -> Iterator[Occurrence]:
-    """Yield the occurrences in the entry of a module: its own name, that of its joint, and its parent."""
-    walker = _Walker(prefix)
-    if module.entry is not None and isinstance(module.entry.key, YamlScalar):
-        yield Occurrence("module", prefix + module.name, module.name, module.entry.key.span, is_declaration=True)
-    yield from walker.references(entry, definitions()["module"])
-    if module.entry is not None and isinstance(module.entry.key, YamlScalar):
-        joint = walker.named_joint(module.name, module.entry.key.span, entry)
-        if entry.get("parent") or not joint.suffix:
-            yield joint
+def _written(instance: Instance, prefix: str) -> Iterator[Occurrence]:
+    """Yield the occurrences in a use of a file as it is written, with those in what its `when`s leave out."""
+    if instance.spec is None or instance.spec.file.is_xml:
+        return
+    walker, tree = _Walker(prefix), instance.spec.tree
+    yield from walker.in_robot(tree.without("modules"))
+    for entry in tree.section("modules").values():
+        if isinstance(entry.value, YamlMap):
+            yield from walker.in_entry(entry.name, entry.key.span, entry.value.without("with", "override"))
+    for used in used_entries(instance, prefix):
+        if used.override is not None:
+            yield from _Walker(used.prefix).in_override(used.override)
 
 
 class _Walker:
@@ -136,6 +153,28 @@ class _Walker:
         if isinstance(joint, YamlScalar) and joint.value is not None:
             return self.occurrence("joint", joint, is_declaration=True)
         return Occurrence("joint", self._prefix + name, key, place, True, name.removeprefix(key))
+
+    def in_robot(self, tree: YamlMap) -> Iterator[Occurrence]:
+        """Yield the names in a file without its modules."""
+        yield from self.declarations(tree)
+        yield from self.references(tree, definitions()["robot"])
+
+    def in_override(self, tree: YamlMap) -> Iterator[Occurrence]:
+        """Yield the names in an override, without those in its overrides of nested modules."""
+        yield from (one._replace(is_declaration=False) for one in self.declarations(tree))
+        yield from self.references(tree.without("modules"), definitions()["robot"])
+        for entry in tree.section("modules").values():
+            yield Occurrence("module", self._prefix + entry.name, entry.name, entry.key.span)
+            if isinstance(entry.value, YamlMap):
+                yield from self.references(entry.value.without("with", "override"), definitions()["module"])
+
+    def in_entry(self, name: str, place: Span, entry: YamlMap) -> Iterator[Occurrence]:
+        """Yield the names in the entry of a module: its own, that of its joint, and its parent."""
+        yield Occurrence("module", self._prefix + name, name, place, is_declaration=True)
+        yield from self.references(entry, definitions()["module"])
+        joint = self.named_joint(name, place, entry)
+        if entry.get("parent") or not joint.suffix:
+            yield joint
 
     def declarations(self, tree: YamlMap) -> Iterator[Occurrence]:
         """Yield the names that the sections of a file declare."""

@@ -19,6 +19,7 @@ from linkforge_compile.diagnostics.codes.schema import MISSING_NAME
 from linkforge_compile.editor.folders import SPEC_ENDINGS, TooManyFilesError, find_specs
 from linkforge_compile.expand import Unset
 from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.lsp.module_entries import unused_files
 from linkforge_compile.roots import identity
 from linkforge_compile.source import Position, SourceFile, Span
 from linkforge_compile.source.characters import UnreadableError
@@ -143,6 +144,11 @@ class Workspace:
         texts = {real: buffer.file.text for real, buffer in self.buffers.items()}
         return Settings(packages=dict(self.packages), options={"gazebo": "gz"}, unset=Unset.NOTE, buffers=texts)
 
+    @property
+    def versions(self) -> dict[str, int | None]:
+        """The versions of the open buffers by real path."""
+        return {real: buffer.version for real, buffer in self.buffers.items()}
+
     def begin(self, path: Path) -> Settings:
         """Return the settings to analyse a spec with, which from now on is stale only by further changes."""
         self._stale.discard(identity(path))
@@ -211,11 +217,25 @@ def _parsed(analysis: Analysis, real: str) -> bool:
 
 
 def find_users(path: Path, folders: Iterable[Path], settings: Settings) -> dict[Path, Analysis]:
-    """Return the specs in folders that read a file, directly or through others, with their analyses."""
+    """Return the specs in folders that read a file, directly or through others, with their analyses.
+
+    A spec reads a file also if it has it as a module under a condition that does not hold.
+    """
     real = identity(path)
     others = (spec for spec in _mentioning(path, folders, settings.buffers) if identity(spec) != real)
     analyses = {spec: analyse_path(spec, settings) for spec in others}
-    return {spec: analysis for spec, analysis in analyses.items() if _reads(analysis, real)}
+    users: dict[Path, Analysis] = {}
+    known, before = {real}, 0
+    while len(known) > before:
+        before = len(known)
+        users = {spec: one for spec, one in analyses.items() if not known.isdisjoint(_files_of(one))}
+        known |= {*map(identity, users)}
+    return users
+
+
+def _files_of(analysis: Analysis) -> set[str]:
+    """Return the real paths of the files that a spec reads, or would read if all conditions held."""
+    return {identity(file) for file in (*analysis.compilation.files, *unused_files(analysis.instance))}
 
 
 def with_users(document: Document, folders: Iterable[Path], settings: Settings) -> Document:

@@ -2,23 +2,24 @@
 
 import os
 import random
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
-from lsprotocol import types
 from pygls.workspace import PositionCodec
 
 from linkforge_compile import render
 from linkforge_compile.analysis import analyse_path
-from linkforge_compile.lsp.convert import Columns, path_of
+from linkforge_compile.diagnostics.fix import Edit, apply_edits
+from linkforge_compile.lsp.convert import Columns
 from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.lsp.occurrences import Occurrences
-from linkforge_compile.lsp.rename import RefusedError, rename, renamed_at
+from linkforge_compile.lsp.rename import rename
+from linkforge_compile.lsp.renaming import RefusedError, renamed_at
 from linkforge_compile.lsp.workspace import Document, Workspace, find_users
 from linkforge_compile.roots import identity
+from linkforge_compile.source import SourceFile
 from tests.conftest import ROOT
-from tests.lsp.test_rename import applied
 
 EXAMPLES = ROOT / "examples"
 NEW = "_renamed"
@@ -46,12 +47,13 @@ def declared_in(document: Document) -> list[Occurrence]:
     return [one for one in {str(one.span): one for one in own}.values() if not one.scope]
 
 
-def edited(edit: types.WorkspaceEdit | None, texts: Mapping[Path, str]) -> dict[Path, str]:
-    """Return the texts of the files that an edit changes."""
-    assert edit is not None
-    assert edit.changes
-    files = {path: edits for uri, edits in edit.changes.items() if (path := path_of(uri))}
-    return {Path(identity(path)): applied(texts.get(path, path.read_text()), edits) for path, edits in files.items()}
+def edited(edits: Sequence[Edit] | None) -> dict[Path, str]:
+    """Return the texts of the files that edits change."""
+    assert edits
+    by_file: dict[SourceFile, list[Edit]] = {}
+    for one in edits:
+        by_file.setdefault(one.span.file, []).append(one)
+    return {Path(identity(file.path or "")): apply_edits(file, listed) for file, listed in by_file.items()}
 
 
 def outputs(document: Document) -> list[str]:
@@ -78,8 +80,8 @@ def test_a_part_renamed_and_back_is_the_same(path: Path):
         for before, after in zip(outputs(document), outputs(changed), strict=True):
             assert after.replace(NEW, "") == before
         assert any(NEW in text for text in outputs(changed)) or one.kind == "module" or one.suffix
-        back = rename(changed, one.span.start, old, changed_workspace.settings())
-        assert edited(back, texts) == {file: file.read_text() for file in texts}
+        back = rename(changed, one.span.start, old, changed_workspace.settings(), (EXAMPLES,))
+        assert edited(back) == {file: file.read_text() for file in texts}
 
 
 def renamed_or_refused(
@@ -92,8 +94,9 @@ def renamed_or_refused(
         old = target[0].text or ""
         suffix = target[1].suffix(one)
         new = old.removesuffix(suffix) + NEW + suffix if old.endswith(suffix) and not one.suffix else old + NEW
-        return old, edited(rename(document, one.span.start, new, workspace.settings()), {})
+        return old, edited(rename(document, one.span.start, new, workspace.settings(), (EXAMPLES,)))
     except RefusedError as error:
         reason = str(error)
     assert "would differ" not in reason or one.kind == "module"
+    assert " may be the " not in reason or "initial_keyframe: standing" in reason
     return None
