@@ -161,12 +161,16 @@ class Workspace:
         self.analyses[real] = analysis
         if _depends(analysis, self._changed.pop(real, ())):
             self._stale.add(real)
+        includers = tuple(includers)
         if includers:
-            self._includers[real] = tuple(includers)
+            self._includers[real] = includers
         self._note_includes(path, analysis)
         for buffer in self.buffers:
             if (buffer == real or buffer in self._includers) and _parsed(analysis, buffer):
                 self.readable[buffer] = analysis
+        # An includer that was analysed before knows more of a part than the part alone.
+        known = (self.analyses[root] for root in map(identity, includers) if root in self.analyses)
+        self.readable |= {real: one for one in known if _parsed(one, real)}
         self._forget_unneeded()
 
     def _note_includes(self, path: Path, analysis: Analysis) -> None:

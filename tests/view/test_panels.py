@@ -357,7 +357,7 @@ def test_problems_of_the_spec_are_over_the_last_good_robot(live: Any, spec: Path
     spec.write_text(SPEC.replace("child: arm", "child: amr"))
     expect(problems).to_contain_text("1 error · the last good robot is shown")
     expect(problems).to_contain_text("did you mean 'arm'?")
-    expect(problems.locator("li")).to_contain_text("arm.robot.yaml:12:")
+    expect(problems.locator("li")).to_contain_text("arm.robot.yaml:13:27")
     assert shown_links(live) == ["base", "arm"]
     spec.write_text(SPEC)
     expect(problems).to_be_hidden()

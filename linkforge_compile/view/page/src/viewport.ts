@@ -16,6 +16,8 @@ export class Viewport {
   private readonly controls: OrbitControls;
   private waiting = 0;
   private radius = 1;
+  /** Look again as at last, after a change of size; until a user moves the camera. */
+  private refit: (() => void) | null = null;
 
   constructor(readonly element: HTMLElement) {
     this.camera.up.set(0, 0, 1);
@@ -25,6 +27,7 @@ export class Viewport {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.moved());
+    this.controls.addEventListener("start", () => (this.refit = null));
     this.addLights();
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
@@ -60,6 +63,7 @@ export class Viewport {
     this.controls.target.copy(target);
     this.controls.update();
     this.moved();
+    this.refit = () => this.fit(box, camera);
   }
 
   /** Return from how far all corners of a box are in the picture, with a margin. */
@@ -103,6 +107,7 @@ export class Viewport {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.refit?.();
     this.draw();
   }
 }
