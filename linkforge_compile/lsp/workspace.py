@@ -169,8 +169,9 @@ class Workspace:
             if (buffer == real or buffer in self._includers) and _parsed(analysis, buffer):
                 self.readable[buffer] = analysis
         # An includer that was analysed before knows more of a part than the part alone.
-        known = (self.analyses[root] for root in map(identity, includers) if root in self.analyses)
-        self.readable |= {real: one for one in known if _parsed(one, real)}
+        for includer in map(identity, includers):
+            if includer in self.analyses and _parsed(self.analyses[includer], real):
+                self.readable[real] = self.analyses[includer]
         self._forget_unneeded()
 
     def _note_includes(self, path: Path, analysis: Analysis) -> None:
