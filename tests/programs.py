@@ -7,6 +7,17 @@ from pathlib import Path
 
 import pytest
 
+HEEDING = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler)"
+COMMAND = "from linkforge_compile.cli.main import main; sys.exit(main(sys.argv[1:]))"
+
+
+def interruptible(*words: str) -> list[str]:
+    """Return the command line of `linkforge WORDS` that heeds SIGINT.
+
+    A shell that runs the tests in its background has them, and what they start, ignore the signal.
+    """
+    return [sys.executable, "-c", f"{HEEDING}; {COMMAND}", *words]
+
 
 def program(name: str) -> str:
     """Return the path of a program; skip the test if it is absent, or fail in CI, which has all of them."""

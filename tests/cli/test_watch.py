@@ -5,7 +5,6 @@ import gc
 import os
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -18,6 +17,7 @@ from linkforge_compile.cli.commands import watch as watch_command
 from linkforge_compile.cli.main import main
 from linkforge_compile.syntax import YamlMap
 from tests.cli.watching import Deed, nothing, removes, run_with, sets
+from tests.programs import interruptible
 
 CELL = "linkforge: 1\nname: cell\nlinks: {base: }\nmodules: {arm: {use: arm.robot.yaml, parent: base}}\n"
 ARM = "linkforge: 1\nname: arm\nlinks: {hand: }\n"
@@ -285,10 +285,7 @@ def test_what_cannot_be_watched_is_reported(
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_ctrl_c_ends_it_without_a_word(cell: Path):
-    # A shell that runs the tests in its background has them, and what they start, ignore the signal.
-    heeds = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
-    program = f"{heeds}; import sys; from linkforge_compile.cli.main import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", program, "watch", "cell.robot.yaml", "-o", "out/"]
+    command = interruptible("watch", "cell.robot.yaml", "-o", "out/")
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr
         lines = [process.stderr.readline(), process.stderr.readline()]

@@ -18,7 +18,7 @@ def test_reports_and_finds_definitions(tmp_path: Path) -> None:
     if nvim is None:
         pytest.skip("there is no program 'nvim'")
     version = re.match(r"NVIM v0\.(\d+)", subprocess.check_output([nvim, "--version"], text=True))
-    since_11, before_11 = blocks("Neovim", "lua")
+    since_11, _on_save, before_11 = blocks("Neovim", "lua")
     settings = tmp_path / "init.lua"
     settings.write_text(before_11 if version and int(version[1]) < 11 else since_11, "utf-8")
     spec = write_spec(tmp_path)

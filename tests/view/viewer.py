@@ -2,17 +2,18 @@
 
 import signal
 import subprocess
-import sys
 from pathlib import Path
 from queue import Queue
 from threading import Thread
+
+from tests.programs import interruptible
 
 
 class Viewer:
     """A process of the command in a folder, and the lines that it prints."""
 
     def __init__(self, *words: str, cwd: Path) -> None:
-        command = [sys.executable, "-m", "linkforge_compile", "view", *words, "--no-browser"]
+        command = interruptible("view", *words, "--no-browser")
         self.process = subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert self.process.stdout
         assert self.process.stderr
