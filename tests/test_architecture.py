@@ -39,10 +39,11 @@ MAY_IMPORT = {
     "checks": "source diagnostics units core roots",
     "formats": "source diagnostics limits units core resources roots gc_paused",
     "_build_hook": "schema formats",
-    "overview": "source diagnostics units core listing checks formats roots resources",
+    "shape_files": "source diagnostics core checks formats roots",
+    "overview": "source diagnostics units core listing checks formats shape_files resources",
     "export_spec": "source diagnostics units syntax core expand listing",
     "compare": "source units core formats",
-    "collisions": "source diagnostics syntax core checks roots",
+    "collisions": "source diagnostics syntax core checks shape_files",
     "analysis": (
         "source diagnostics limits load expand lower checks formats core roots fresh_stack gc_paused compilation"
     ),
@@ -58,7 +59,8 @@ MAY_IMPORT = {
         "export_spec overview editor roots paths resources formats limits lower checks compilation _version"
     ),
     "view": (
-        "source diagnostics checks formats core roots resources compare expand listing analysis pipeline file_watcher"
+        "source diagnostics checks formats core shape_files resources compare expand listing analysis pipeline "
+        "file_watcher"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Selection
     from linkforge_compile.source import Span
 
-PATIENCE = 3.0
+PATIENCE = 2.0
 """Time until `progress_after` prints its message [s]."""
 
 PROGRESS_INTERVAL = 2.0

@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.bounding import ScanBudget
-from linkforge_compile.checks.mesh_files import MeshFinder, scan_mesh
+from linkforge_compile.checks.mesh_files import scan_mesh
 from linkforge_compile.core.meshes import MAX_BYTES, MeshError, MeshFault, triangles_in
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.resolver import FileSystemResolver
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, UnresolvedNames
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.collisions import UNKNOWN_SHAPE, UNREADABLE_SHAPE
-from linkforge_compile.roots import ANYWHERE, is_file
+from linkforge_compile.shape_files import ShapeFiles
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_bytes
 
@@ -23,21 +22,18 @@ if TYPE_CHECKING:
     from coal import BVHModelBase
     from numpy.typing import NDArray
 
-_PACKAGE = "package://"
-
 
 def find_meshes(robot: Robot, sink: Diagnostics) -> dict[str, Path]:
     """Return the files of the meshes of collisions, as they are written; report those that cannot be read."""
-    resolver = robot.resource_resolver
-    roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
-    finder = MeshFinder(robot, UnresolvedNames().with_access(roots.hold))
-    budget = ScanBudget()
+    files, budget = ShapeFiles(robot), ScanBudget()
     paths: dict[str, Path] = {}
     for mesh in _collision_meshes(robot):
-        path = finder.path(mesh.resource)
-        if path is None or not is_file(path):
-            sink.report(_unknown(mesh, path, is_forbidden=mesh.resource in finder.forbidden))
-        elif fault := scan_mesh(path, budget).fault or _fault_in(path):
+        try:
+            path = files.find(mesh.resource)
+        except UnreadableError as error:
+            sink.report(UNKNOWN_SHAPE.at(mesh.source, "file", file=mesh.resource, reason=str(error)))
+            continue
+        if fault := scan_mesh(path, budget).fault or _fault_in(path):
             sink.report(UNREADABLE_SHAPE.at(mesh.source, "file", file=mesh.resource, reason=fault))
         else:
             paths[mesh.resource] = path
@@ -86,18 +82,6 @@ def _collision_meshes(robot: Robot) -> Iterator[Mesh]:
             if isinstance(collision.geometry, Mesh):
                 meshes.setdefault(collision.geometry.resource, collision.geometry)
     yield from meshes.values()
-
-
-def _unknown(mesh: Mesh, path: Path | None, *, is_forbidden: bool) -> Diagnostic:
-    if is_forbidden:
-        reason, way_out = "is outside of the folders that a spec may read", "use --allow-outside"
-    elif path is None and mesh.resource.startswith(_PACKAGE):
-        package = mesh.resource.removeprefix(_PACKAGE).partition("/")[0]
-        reason, way_out = "is not found", f"name the folder of its package with --package {package}=PATH"
-    else:
-        reason, way_out = "is not found", "correct its path"
-    notes = [Note(f"looked for it at {path}")] if path else []
-    return UNKNOWN_SHAPE.at(mesh.source, "file", file=mesh.resource, reason=reason, way_out=way_out, notes=notes)
 
 
 def _fault_in(path: Path) -> str | None:

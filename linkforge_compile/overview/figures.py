@@ -7,14 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.core.resolver import FileSystemResolver
 from linkforge_compile.formats.groups import joints_by_group
-from linkforge_compile.formats.mesh_paths import mesh_paths, reason_not_found
+from linkforge_compile.formats.mesh_paths import mesh_paths
 from linkforge_compile.overview.extent import Extent, measure_extent
 from linkforge_compile.overview.graph import module_boxes, walk_boxes
 from linkforge_compile.overview.reach import Reach, farthest, reaches_from, zero_poses
 from linkforge_compile.overview.tree import tree_rows
-from linkforge_compile.roots import ANYWHERE, is_file
+from linkforge_compile.shape_files import ShapeFiles
+from linkforge_compile.source.characters import UnreadableError
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -126,16 +126,13 @@ def mass_of(robot: Robot, poses: Mapping[str, Pose]) -> Mass:
 
 def mesh_files(robot: Robot) -> dict[str, Path | str]:
     """Return the file of each mesh as it is written, or the reason why there is none."""
-    return {one.resource: _checked(robot, one.resource, one.path) for one in mesh_paths(robot)}
-
-
-def _checked(robot: Robot, resource: str, path: Path | None) -> Path | str:
-    """Return the file of a mesh, or the reason why there is none that may be read."""
-    resolver = robot.resource_resolver
-    roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
-    if path and not roots.hold(path):
-        return "it is outside of the folders that a spec may read; use --allow-outside"
-    return path if path and is_file(path) else reason_not_found(robot, resource)
+    files, found = ShapeFiles(robot), dict[str, Path | str]()
+    for mesh in mesh_paths(robot):
+        try:
+            found[mesh.resource] = files.find(mesh.resource)
+        except UnreadableError as error:
+            found[mesh.resource] = str(error)
+    return found
 
 
 def _mesh_file(resource: str, file: Path | str) -> MeshFile:

@@ -12,18 +12,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.mesh_files import LFS_POINTER, MeshFinder
+from linkforge_compile.checks.mesh_files import LFS_POINTER
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Visual
-from linkforge_compile.core.resolver import FileSystemResolver
-from linkforge_compile.diagnostics import UnresolvedNames
-from linkforge_compile.formats.mesh_paths import (
-    mesh_paths,
-    places_of_files,
-    reason_not_found,
-    texture_paths,
-)
-from linkforge_compile.roots import ANYWHERE
+from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
+from linkforge_compile.shape_files import ShapeFiles
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import TooLargeError, read_bytes
 from linkforge_compile.view.named_files import KINDS, MESHES, TEXTURES, named_files
@@ -37,8 +30,6 @@ MAX_BYTES = 128 * 1024 * 1024
 
 MAX_ALL_BYTES = 256 * 1024 * 1024
 """The most that all files of a robot have together: browsers open no larger page."""
-
-OUTSIDE = "it is outside of the folders that the robot may read; use --allow-outside"
 
 _DIGITS = 32
 
@@ -114,10 +105,7 @@ class _Reader:
     """Reads each file of a robot once."""
 
     def __init__(self, robot: Robot) -> None:
-        resolver = robot.resource_resolver
-        self._robot = robot
-        self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
-        self._finder = MeshFinder(robot, UnresolvedNames().with_access(self._roots.hold))
+        self._finder = ShapeFiles(robot)
         self._digests: dict[Path, str] = {}
         self._faults: list[tuple[str, str]] = []
         self._left = MAX_ALL_BYTES
@@ -138,12 +126,7 @@ class _Reader:
         if kind not in kinds:
             raise UnreadableError(f"the viewer does not show .{kind}, only .{', .'.join(sorted(kinds))}")
         is_beside = folder is not None and "://" not in resource
-        path = folder / resource if folder and is_beside else self._finder.path(resource)
-        # Asked before the file is looked up, so that no reason reveals whether it exists.
-        if (path and not self._roots.hold(path)) or (not is_beside and resource in self._finder.forbidden):
-            raise UnreadableError(OUTSIDE)
-        if path is None:
-            raise UnreadableError(reason_not_found(self._robot, resource))
+        path = self._finder.beside(folder, resource) if folder and is_beside else self._finder.find(resource)
         if path not in self._digests:
             self.paths.append(path)
             self._digests[path] = self._add(path, kind)

@@ -75,9 +75,9 @@ def test_a_missing_mesh_is_an_error_at_its_place(tmp_path: Path):
     done = linkforge("collisions", "robot.robot.yaml", "--color", "never", cwd=tmp_path)
     assert (done.returncode, done.stdout) == (1, "")
     assert (
-        "robot.robot.yaml:4:28: error: the mesh 'package://hand_description/hand.stl' of a collision is not found, so "
-        "its link cannot be sampled; name the folder of its package with --package hand_description=PATH [LF7701]"
-        in done.stderr
+        "robot.robot.yaml:4:28: error: the mesh 'package://hand_description/hand.stl' of a collision cannot be opened, "
+        "so its link cannot be sampled: package 'hand_description' is not found; say where it is with "
+        "`--package hand_description=FOLDER` [LF7701]" in done.stderr
     )
 
 
@@ -88,8 +88,11 @@ def test_missing_meshes_of_a_package_are_one_error(tmp_path: Path):
     done = linkforge("collisions", "robot.robot.yaml", cwd=tmp_path)
     assert done.returncode == 1
     assert done.stderr.count("LF7701") == 2
-    assert "with --package arm=PATH; the same for 'package://arm/upper.stl' and 'package://arm/hand.stl'" in done.stderr
-    assert "with --package tool=PATH [LF7701]" in done.stderr
+    assert (
+        "with `--package arm=FOLDER`; the same for 'package://arm/upper.stl' and 'package://arm/hand.stl'"
+        in done.stderr
+    )
+    assert "with `--package tool=FOLDER` [LF7701]" in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -133,7 +133,7 @@ def test_nothing_is_drawn_while_nothing_changes(page: Path, new_tab: Callable[[]
     assert tab.evaluate("frames_drawn") == before + 1
 
 
-def test_two_hundred_updates_hold_no_more_than_one(page: Path, new_tab: Callable[[], Any], tmp_path: Path):
+def test_many_updates_hold_no_more_than_one(page: Path, new_tab: Callable[[], Any], tmp_path: Path):
     (tmp_path / "m.stl").write_bytes(content(block(1, 1, 1), "stl"))
     text = f"linkforge: 1\nname: r\nlinks: {{a: {{visual: {{mesh: {tmp_path / 'm.stl'}}}}}}}\n"
     robot = compile_text(text, name=str(tmp_path / "r.robot.yaml")).result()
@@ -143,7 +143,7 @@ def test_two_hundred_updates_hold_no_more_than_one(page: Path, new_tab: Callable
     html = html_of(scene, files)
     scene["files"] = json.loads(html.split('type="application/json">')[1].split("</script>")[0])["files"]
     tab = new_tab()
-    tab.set_viewport_size({"width": 160, "height": 120})  # 200 pictures by software
+    tab.set_viewport_size({"width": 160, "height": 120})  # 60 pictures by software
     tab.add_init_script(SERVER)
     file = tmp_path / "robot.html"
     file.write_text(html, "utf-8")
@@ -154,7 +154,7 @@ def test_two_hundred_updates_hold_no_more_than_one(page: Path, new_tab: Callable
     tab.evaluate("linkforge.select('upper')")
     chance = random.Random(1)
     scenes = []
-    for _ in range(200):
+    for _ in range(60):
         changed = copy.deepcopy(scene)
         changed["links"][1]["visuals"][0]["length"] = chance.uniform(0.2, 0.5)
         changed["links"][1]["visuals"][0]["color"] = [chance.random(), 0.5, 0.5, 1]

@@ -127,8 +127,8 @@ def test_a_fault_of_the_page_is_the_reason(browser: Sequence[str]):
 
 def test_a_page_that_is_never_ready_has_a_time_limit(browser: Sequence[str]):
     html = f"<html><body><script>linkforge = {{ready: new Promise(() => 0)}}</script>{WAIT}</body></html>"
-    with pytest.raises(PictureError, match="did not draw the picture within 8 s"):
-        draw_picture(html, SIZE, browser, time_limit=8)
+    with pytest.raises(PictureError, match="did not draw the picture within 3 s"):
+        draw_picture(html, SIZE, browser, time_limit=3)
 
 
 def test_no_browser_is_a_message_with_the_names(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):

@@ -148,6 +148,14 @@ def test_a_mesh_without_a_material_has_that_of_the_robot(show_link: Callable[...
         assert green > 150, name
 
 
+@pytest.mark.parametrize("line", ["Tr 1", "Tr 0", "d 1", "d 0"])
+def test_a_mesh_that_its_file_calls_invisible_is_seen(line: str, show_link: Callable[..., Any]):
+    material = f"newmtl skin\nKd 0 0 1\n{line}\n"  # MeshLab writes `Tr 1` for opaque, others for the opposite
+    red, green, blue = middle(show_link("{visual: {mesh: m.obj}}", {"m.obj": OBJ.encode(), "m.mtl": material.encode()}))
+    assert max(red, green) < 60
+    assert blue > 150
+
+
 def test_a_texture_of_the_robot_is_seen_on_a_box(show_link: Callable[..., Any]):
     link = "{visual: {box: [1, 1, 1], material: {name: skin, texture: skin.png}}}"
     red, green, blue = middle(show_link(link, {"skin.png": picture((255, 0, 0))}))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -141,7 +140,7 @@ def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespac
     are_given |= {name: getattr(arguments, name) for name in ("all", "write", "check")}
     if other := next((name for name, is_given in are_given.items() if is_given), None):
         raise UsageError(f"--pose takes no samples and writes nothing, so --{other} is not allowed with it")
-    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.cli.output import json_text, write_to_stdout
     from linkforge_compile.collisions.poses import find_collisions
     from linkforge_compile.diagnostics import Diagnostics
     from linkforge_compile.diagnostics.grouping import group_alike
@@ -157,7 +156,7 @@ def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespac
     by_pose = dict(zip(states, found, strict=True))
     if arguments.json:
         documents = [{"state": pose, "collisions": list(map(_collision_json, of))} for pose, of in by_pose.items()]
-        write_to_stdout(json.dumps(documents, ensure_ascii=False, indent=2) + "\n")
+        write_to_stdout(json_text(documents))
     else:
         lines = (line for pose, collisions in by_pose.items() for line in _collision_lines(pose, collisions))
         write_to_stdout("".join(f"{line}\n" for line in lines))
@@ -181,12 +180,12 @@ def _collision_json(one: Collision) -> dict[str, object]:
 
 def _print(results: Mapping[str, Matrix], arguments: argparse.Namespace, *, is_one: bool) -> None:
     """Print the matrix of one spec, or those of several with their specs."""
-    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.cli.output import json_text, write_to_stdout
     from linkforge_compile.collisions.section import section_text
 
     if arguments.json:
         documents = [{**({} if is_one else {"spec": spec}), **_json(one, arguments)} for spec, one in results.items()]
-        write_to_stdout(json.dumps(documents[0] if is_one else documents, ensure_ascii=False, indent=2) + "\n")
+        write_to_stdout(json_text(documents[0] if is_one else documents))
         return
     headings = {spec: "" if is_one else f"# {on_one_line(spec)}\n" for spec in results}
     write_to_stdout("".join(f"{headings[spec]}{section_text(one.disabled)}" for spec, one in results.items()))

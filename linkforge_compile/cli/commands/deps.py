@@ -99,8 +99,7 @@ def _outputs(targets: Targets, compilation: Compilation) -> tuple[Path, ...]:
 
 
 def _json_text(compilation: Compilation, targets: Targets) -> str:
-    import json
-
+    from linkforge_compile.cli.output import json_text
     from linkforge_compile.resources import compiler_files
 
     document = {
@@ -109,4 +108,4 @@ def _json_text(compilation: Compilation, targets: Targets) -> str:
         "unread": list(map(str, compilation.unread)),
         "linkforge": list(map(str, compiler_files(targets.template_folders))),
     }
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+    return json_text(document)

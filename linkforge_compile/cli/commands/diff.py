@@ -235,7 +235,7 @@ def _part_lines(part: tuple[str, ...], differences: Sequence[Difference]) -> Ite
 
 def _json_text(comparison: _Comparison) -> str:
     """Return the comparison as docs/diff.schema.json describes it."""
-    import json
+    from linkforge_compile.cli.output import json_text
 
     document: dict[str, object] = {"version": 1}
     for name, side in zip(SIDES, comparison.sides, strict=True):
@@ -250,4 +250,4 @@ def _json_text(comparison: _Comparison) -> str:
         "breaking": [name._asdict() for name in comparison.removed],
         "differences": [{**vars(one), "path": "/".join(one.path)} for one in comparison.differences],
     }
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+    return json_text(document)

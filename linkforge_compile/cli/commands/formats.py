@@ -68,7 +68,7 @@ def _wrapped(title: str, text: str) -> Iterator[str]:
 
 
 def _json_text(chosen: Sequence[Format]) -> str:
-    import json
+    from linkforge_compile.cli.output import json_text
 
     document = [
         {
@@ -85,4 +85,4 @@ def _json_text(chosen: Sequence[Format]) -> str:
         }
         for one in chosen
     ]
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+    return json_text(document)

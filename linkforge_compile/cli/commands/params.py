@@ -70,7 +70,7 @@ def _row(parameter: ListedParameter) -> tuple[str, ...]:
 
 
 def _json_text(listing: Listing) -> str:
-    import json
+    from linkforge_compile.cli.output import json_text
 
     document = {
         "name": listing.name,
@@ -78,7 +78,7 @@ def _json_text(listing: Listing) -> str:
         "parameters": [_json_parameter(parameter) for parameter in listing.parameters],
         "variants": [{"name": name, "sets": dict(settings)} for name, settings in listing.variants.items()],
     }
-    return json.dumps(document, ensure_ascii=False, indent=2) + "\n"
+    return json_text(document)
 
 
 def _json_parameter(parameter: ListedParameter) -> dict[str, Plain]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections import defaultdict
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,7 @@ from linkforge_compile.cli.targets import file_to_write
 if TYPE_CHECKING:
     from linkforge_compile.cli.output import Content
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.view.files import MissingFile, RobotFiles
     from linkforge_compile.view.picture import Size
     from linkforge_compile.view.scene import Scene, SceneCamera, SceneView
@@ -142,7 +144,7 @@ def run(arguments: argparse.Namespace) -> int:
     view = _view(robot, arguments)
     files = collect_files(robot)
     refuse_to_replace((*compilation.files, *files.paths), outputs)
-    _report_missing(files, arguments)
+    _report_missing(files, compilation.diagnostics, arguments)
     scene = make_scene(robot, files, view)
     contents = {path: _content(form, scene, files, arguments) for path, form in outputs.items()}
     for path, content in contents.items():
@@ -189,11 +191,13 @@ def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
     return view
 
 
-def _report_missing(files: RobotFiles, arguments: argparse.Namespace) -> None:
-    """Print what is not shown, by reason, with the place of the first file of each."""
+def _report_missing(files: RobotFiles, diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> None:
+    """Print what is not shown, by reason, with the place of the first file of each; not what is reported already."""
+    reported = {place for one in diagnostics for place in (one.span, *(note.span for note in one.notes))}
     by_reason: dict[str, list[MissingFile]] = defaultdict(list)
     for missing in files.missing:
-        by_reason[missing.reason].append(missing)
+        if missing.source is None or missing.source.span not in reported:
+            by_reason[missing.reason].append(missing)
     for reason, (first, *others) in by_reason.items():
         place = f"{first.source.span}: " if first.source else ""
         what = f"'{first.resource}' and {count(len(others), 'other file')} are" if others else f"'{first.resource}' is"

@@ -7,9 +7,9 @@ _E = Severity.ERROR
 UNKNOWN_SHAPE = Code(
     "LF7701",
     _E,
-    "the mesh '{file}' of a collision {reason}, so its link cannot be sampled; {way_out}",
+    "the mesh '{file}' of a collision cannot be opened, so its link cannot be sampled: {reason}",
     subject="file",
-    grouped_by=("reason", "way_out"),
+    grouped_by=("reason",),
 )
 UNREADABLE_SHAPE = Code(
     "LF7702", _E, "the mesh '{file}' of a collision cannot be read, so its link cannot be sampled: {reason}"

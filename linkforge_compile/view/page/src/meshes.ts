@@ -130,8 +130,10 @@ function matt(material: THREE.Material, changed: Map<THREE.Material, THREE.Mater
   const known = changed.get(material);
   if (known) return known;
   const { color, map, emissive, name, opacity, transparent, vertexColors } = material as THREE.MeshPhongMaterial;
-  const isClear = transparent && opacity < 1;
-  const made = new THREE.MeshStandardMaterial({ name, color, opacity, transparent: isClear, vertexColors, ...FINISH });
+  // Nobody draws what cannot be seen: MeshLab writes `Tr 1` for opaque, which says the opposite.
+  const isClear = transparent && 0 < opacity && opacity < 1;
+  const seen = { opacity: isClear ? opacity : 1, transparent: isClear };
+  const made = new THREE.MeshStandardMaterial({ name, color, ...seen, vertexColors, ...FINISH });
   if (map) made.map = map;
   if (emissive) made.emissive.copy(emissive);
   changed.set(material, made);

@@ -68,7 +68,7 @@ export interface Joint {
   velocity: number | null;
   effort: number | null;
   mimic: Mimic | null;
-  /** Where it starts: 0, or the nearest limit. */
+  /** Where it starts: 0, or the middle of limits that exclude 0. */
   value: number;
   source: Place | null;
   module: string;
