@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from linkforge_compile import compile_text
 from linkforge_compile.resources import view_page_file
@@ -165,28 +166,24 @@ def test_many_updates_hold_no_more_than_one(page: Path, new_tab: Callable[[], An
     assert first["geometries"] < 30
 
 
-def big_robot(links: int) -> str:
-    """Return the page of a chain of links, each with its own mesh."""
+def big_robot(links: int, folder: Path) -> str:
+    """Return the page of a robot of many links, each with a mesh of its own."""
     names = [f"l{number}" for number in range(links)]
-    scene = copy.deepcopy(SAMPLE)
-    visual = {"origin": {"xyz": [0, 0, 0.05], "quaternion": [0, 0, 0, 1]}, "type": "cylinder"}
-    sphere = {"radius": 0.02, "length": 0.1, "color": [0.8, 0.3, 0.2, 1]}
-    link, joint = SAMPLE["links"][1], SAMPLE["joints"][0]
-    scene["links"] = [
-        {**link, "name": name, "parent": f"j{number}" if number else None, "visuals": [{**visual, **sphere}]}
-        for number, name in enumerate(names)
-    ]
-    scene["joints"] = [
-        {**joint, "name": f"j{number}", "parent": names[number - 1], "child": names[number]}
-        for number in range(1, links)
-    ]
-    scene["states"] = []
-    return html_of({**scene, "view": {"panels": True}}, RobotFiles())
+    for number, name in enumerate(names):
+        mesh = trimesh.creation.icosphere(subdivisions=2, radius=0.04 + number * 1e-5)
+        (folder / f"{name}.stl").write_bytes(content(mesh, "stl"))
+    lines = [f"  {name}: {{visual: {{mesh: {name}.stl}}}}" for name in names]
+    joint = "type: continuous, axis: y, origin: {xyz: [0.1, 0, 0.01]}"
+    joints = [f"  j{n}: {{{joint}, parent: l{(n - 1) // 2}, child: l{n}}}" for n in range(1, links)]
+    text = "\n".join(("linkforge: 1", "name: big", "links:", *lines, "joints:", *joints, ""))
+    robot = compile_text(text, name=str(folder / "r.robot.yaml")).result()
+    files = collect_files(robot)
+    return html_of(make_scene(robot, files), files)
 
 
 def test_a_robot_of_300_links_is_up_within_three_seconds(page: Path, new_tab: Callable[[], Any], tmp_path: Path):
     file = tmp_path / "robot.html"
-    file.write_text(big_robot(300), "utf-8")
+    file.write_text(big_robot(300, tmp_path), "utf-8")
     tab = new_tab()
     start = time.perf_counter()
     tab.goto(file.as_uri())

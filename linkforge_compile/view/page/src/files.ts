@@ -32,8 +32,7 @@ export class Files {
 
   async bytes(digest: string): Promise<ArrayBuffer> {
     const data = this.files[digest]?.data;
-    if (data !== undefined) return Uint8Array.from(atob(data), (character) => character.charCodeAt(0)).buffer;
-    const answer = await fetch(`files/${digest}`);
+    const answer = await fetch(data === undefined ? `files/${digest}` : `data:;base64,${data}`);
     if (!answer.ok) throw new Error(`the server answers ${answer.status} for ${this.files[digest]?.name ?? digest}`);
     return answer.arrayBuffer();
   }
