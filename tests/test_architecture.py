@@ -63,8 +63,8 @@ MAY_IMPORT = {
         "file_watcher"
     ),
     "cli": (
-        "banner source diagnostics fixing limits roots paths core checks schema load expand listing analysis pipeline "
-        "importing formats formatter overview export_spec compare collisions view editor lsp resources units "
+        "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
+        "pipeline importing formats formatter overview export_spec compare collisions view editor lsp resources units "
         "file_watcher _version"
     ),
 }

@@ -1,4 +1,4 @@
-"""The head of an imported spec: the command that writes it again, and a digest of the files that it was read from."""
+"""The head of an imported spec: the command that writes it again, and digests of what it was read from and of it."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from linkforge_compile.source.characters import on_one_line
+
+_FILES, _TEXT = "# sha256 of its files: ", "# sha256 of the rest: "
 
 
 class Origin(NamedTuple):
@@ -25,8 +27,11 @@ class Origin(NamedTuple):
     """The folders of packages that the user named."""
     is_outside_allowed: bool = False
 
-    def head(self, spec: Path | None) -> str:
-        """Return the comment for a spec, in whose folder the command is to be run; None for the working directory."""
+    def with_head(self, text: str, spec: Path | None) -> str:
+        """Return the text of a spec with its head; the command is to be run in the folder of the spec.
+
+        None for the working directory.
+        """
         folder = spec.parent if spec else Path()
         options = [*(("--srdf", _from(folder, self.srdf)) if self.srdf else ())]
         for name, place in self.packages.items():
@@ -34,7 +39,35 @@ class Origin(NamedTuple):
         options += ["--allow-outside"] if self.is_outside_allowed else []
         options += ("-o", spec.name) if spec else ()
         command = ("linkforge", "import", _from(folder, self.urdf), *self.assignments, *options)
-        return f"# {on_one_line(shlex.join(command))}\n# sha256 of its files: {self.digest}\n\n"
+        own = digest_of([text.encode()])
+        return f"# {on_one_line(shlex.join(command))}\n{_FILES}{self.digest}\n{_TEXT}{own}\n\n{text}"
+
+
+class Head(NamedTuple):
+    """The head of an imported spec: the words after `linkforge import`, and the digest of the files it was read from.
+
+    `is_edited` is whether the text below is another one than was imported.
+    """
+
+    words: tuple[str, ...]
+    digest: str
+    is_edited: bool
+
+
+def read_head(text: str) -> Head | None:
+    """Return the head of a spec, None if it has none."""
+    head, _, body = text.replace("\r\n", "\n").partition("\n\n")
+    match head.split("\n"):
+        case [command, files, own] if files.startswith(_FILES) and own.startswith(_TEXT):
+            try:
+                program, name, *words = shlex.split(command.removeprefix("# "))
+            except ValueError:
+                return None
+            if (program, name) != ("linkforge", "import"):
+                return None
+            is_edited = own.removeprefix(_TEXT) != digest_of([body.encode()])
+            return Head(tuple(words), files.removeprefix(_FILES), is_edited)
+    return None
 
 
 def digest_of(contents: Iterable[bytes]) -> str:

@@ -45,10 +45,11 @@ def test_a_spec_begins_with_the_command_and_the_digest_of_its_files(tmp_path: Pa
         output = tmp_path / folder / "arm.robot.yaml"
         run = linkforge("import", "urdf/arm two.urdf.xacro", "size:=2 m", "-o", str(output), cwd=tmp_path)
         assert run.returncode == 0, run.stderr
-        command, digest, rest = output.read_text("utf-8").split("\n", 2)
+        command, digest, own, rest = output.read_text("utf-8").split("\n", 3)
         assert command == f"# linkforge import '{path}' 'size:=2 m' -o arm.robot.yaml"
         whole = sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
         assert digest == f"# sha256 of its files: {whole}"
+        assert own == f"# sha256 of the rest: {sha256(rest[1:].encode()).hexdigest()}"
         assert rest.startswith("\nlinkforge: 1\n")
 
 
@@ -238,7 +239,7 @@ def test_a_spec_is_named_after_an_xml_file_without_its_ending(tmp_path: Path):
 
 def test_an_output_called_by_a_dash_is_standard_output(arm, tmp_path: Path):
     run = linkforge("import", arm(), "-o", "-", cwd=tmp_path)
-    assert (run.returncode, run.stdout.split("\n")[4], run.stderr) == (0, "name: arm", "")
+    assert (run.returncode, run.stdout.split("\n")[5], run.stderr) == (0, "name: arm", "")
     assert [file.name for file in tmp_path.iterdir()] == ["arm.urdf"]
 
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Sequence
-from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.diff_folders import in_common_folders
 from linkforge_compile.cli.diff_page import require_html, write_page
 from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
+from linkforge_compile.cli.diff_text import difference_lines
 from linkforge_compile.cli.options import add_format_options, add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report
 from linkforge_compile.formats import URDF
@@ -170,16 +169,10 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
 
 
 def _lines(comparison: _Comparison) -> Iterator[str]:
-    """Yield the numbers of differences, the removed names, each part by section, and what was not compared."""
+    """Yield what differs, and what was not compared."""
     before, after = (side.label for side in comparison.sides)
     if comparison.differences:
-        kinds = Counter[str](difference.kind for difference in comparison.differences)
-        yield f"{before} → {after}: {', '.join(f'{kinds[kind]} {kind}' for kind in _SIGNS if kind in kinds)}"
-        yield from _removed_lines(comparison.removed)
-        for section, members in groupby(comparison.differences, key=lambda difference: difference.path[0]):
-            yield from ("", section)
-            for part, group in groupby(members, key=lambda difference: difference.path[1 : _DEPTH.get(section, 2)]):
-                yield from _part_lines(part, list(group))
+        yield from difference_lines((before, after), comparison.differences, comparison.removed)
     else:
         yield f"{before} and {after} are the same robot"
     if comparison.not_read_back is not None:
@@ -188,49 +181,6 @@ def _lines(comparison: _Comparison) -> Iterator[str]:
     if comparison.is_semantic_missed:
         without = [side.word for side in comparison.sides if not side.has_semantic]
         yield f"the semantic part is left out: {' and '.join(without)} has none"
-
-
-_DEPTH = {"semantic": 3}
-"""The length of the path to a part that is printed on a line of its own, by section; 2 in other sections."""
-
-_SIGNS = {"added": "+", "removed": "-", "renamed": ">", "moved": ">", "changed": "~"}
-
-_INTERFACE = " interface"
-
-
-def _removed_lines(removed: Sequence[RemovedName]) -> Iterator[str]:
-    """Yield the kind and name of each removed name, and the interfaces of a joint in one line."""
-    if not removed:
-        return
-    yield from ("", "breaking: names that are gone, on which others may rely")
-    width = max(len(name.kind) for name in removed)
-    for (kind, owner, now), names in groupby(removed, key=_owner):
-        text = owner + (f", now {now}" if now else "")
-        if kind.endswith(_INTERFACE):
-            interfaces = [name.name.rpartition("/")[2] for name in names]
-            text = f"{owner}: {', '.join(interfaces)}" + (f", now of {now}" if now else "")
-        yield f"  {kind:{width}}  {text}"
-
-
-def _owner(name: RemovedName) -> tuple[str, str, str | None]:
-    if not name.kind.endswith(_INTERFACE):
-        return name.kind, name.name, name.now
-    return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None
-
-
-def _part_lines(part: tuple[str, ...], differences: Sequence[Difference]) -> Iterator[str]:
-    """Yield what happened to a part as a whole, then what differs in it."""
-    name, steps = "/".join(part), len(part) + 1
-    whole = [difference for difference in differences if len(difference.path) <= steps]
-    for difference in whole:
-        sign = _SIGNS[difference.kind]
-        yield f"  {sign} {name}: {difference.text}" if name else f"  {sign} {difference.text}"
-    inner = [difference for difference in differences if len(difference.path) > steps]
-    if inner and not whole:
-        yield f"  ~ {name}"
-    for difference in inner:
-        sign = "" if difference.kind == "changed" else f"{_SIGNS[difference.kind]} "
-        yield f"      {sign}{'/'.join(difference.path[steps:])}: {difference.text}"
 
 
 def _json_text(comparison: _Comparison) -> str:

@@ -37,11 +37,16 @@ examples:
   linkforge import arm.urdf -o arm.robot.yaml --strict
   linkforge import arm.urdf --srdf arm.srdf -o arm.robot.yaml
   linkforge import ur.urdf.xacro --srdf ur.srdf.xacro ur_type:=ur5e -o .    each gets the arguments that it has
+  linkforge import --refresh ur.robot.yaml            again, from new files of the vendor, by the command in the spec
+  linkforge import --refresh ur.robot.yaml --check    only tell what the new files change, and what no longer fits
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.usage = "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
+    parser.usage = (
+        "linkforge import [options] ROBOT.urdf | ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]\n"
+        "       linkforge import --refresh SPEC.robot.yaml [--check]"
+    )
     parser.epilog = _EXAMPLES
     parser.add_argument(
         "words",
@@ -54,6 +59,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
     )
     parser.add_argument("--force", action="store_true", help="replace an existing spec with other content")
+    parser.add_argument(
+        "--refresh", action="store_true", help="import a spec again, by the command that it begins with"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="with --refresh: write nothing; exit code 1 if there is something to write"
+    )
     parser.add_argument("--strict", action="store_true", help="if something cannot be kept, write nothing and fail")
     add_parameter_option(parser, "set an argument of the xacros")
     add_package_option(parser)
@@ -62,6 +73,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.refresh:
+        from linkforge_compile.cli.refresh import refresh
+
+        return refresh(arguments, add_arguments)
+    if arguments.check:
+        raise UsageError("--check is for --refresh")
     files, assignments = split_assignments(arguments.words)
     _refuse_other_kinds(files)
     urdf = require_one_spec(files)
@@ -90,8 +107,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.strict and is_faulty:
         print_failure(f"nothing written: {_reason(imported.losses)}", arguments)
         return FAULTY_SPEC
-    head = imported.origin.head(output) if imported.origin else ""
-    _write(head + imported.text, output, arguments)
+    text = imported.origin.with_head(imported.text, output) if imported.origin else imported.text
+    _write(text, output, arguments)
     return FAULTY_SPEC if is_faulty else OK
 
 

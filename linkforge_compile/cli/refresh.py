@@ -1,0 +1,175 @@
+"""`linkforge import --refresh`: import a spec again, and tell what of the specs that use it no longer fits."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.diff_text import difference_lines
+from linkforge_compile.cli.options import Parser, packages_of, split_assignments
+from linkforge_compile.cli.reports import print_failure, print_status, progress_after, report
+from linkforge_compile.cli.specs import count
+from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.roots import identity, is_file
+
+if TYPE_CHECKING:
+    from linkforge_compile.analysis import Settings
+    from linkforge_compile.importers.origin import Head
+    from linkforge_compile.importing import Import
+
+
+def refresh(arguments: argparse.Namespace, add_arguments: Callable[[Parser], None]) -> int:
+    """Write a spec as its vendor's files are now; FAULTY_SPEC for errors, and if `--check` finds something to write.
+
+    `add_arguments` adds those of `linkforge import`, with which the command in the spec is read.
+    """
+    parser = Parser(prog="linkforge import", exit_on_error=False)
+    add_arguments(parser)
+    spec = _spec_of(arguments)
+    before = spec.read_text("utf-8")
+    head = _head_of(spec, before)
+    if head.is_edited and not arguments.force:
+        raise UsageError(
+            f"'{spec}' was edited since its import, and a refresh would undo that; move the edits to the `override` of "
+            "a spec that uses it, or use --force to lose them"
+        )
+    with progress_after(f"reading {spec}", arguments):
+        imported = _import_again(spec, parser.parse_words(head.words), arguments)
+    is_faulty = report(imported.diagnostics, arguments) or imported.has_errors
+    if imported.text is None or imported.origin is None:
+        return FAULTY_SPEC
+    after = imported.origin.with_head(imported.text, spec)
+    if after == before:
+        print_status(f"{spec} is up to date", arguments)
+        return FAULTY_SPEC if is_faulty else OK
+    _print_differences(spec, after, arguments)
+    no_longer_fits = _report_users(spec, after, arguments)
+    if arguments.check:
+        print_status(f"{spec} would be written", arguments)
+        return FAULTY_SPEC
+    from linkforge_compile.cli.output import write_document
+
+    write_document(after, spec, arguments)
+    return FAULTY_SPEC if is_faulty or no_longer_fits else OK
+
+
+def _spec_of(arguments: argparse.Namespace) -> Path:
+    specs, assignments = split_assignments(arguments.words)
+    given = [*assignments, *arguments.parameters, *filter(None, (arguments.srdf, arguments.output))]
+    if given:
+        raise UsageError(f"--refresh takes arguments from the spec, so '{given[0]}' is not allowed; import it anew")
+    if len(specs) != 1 or not specs[0].lower().endswith((".yaml", ".yml")):
+        raise UsageError("--refresh takes the spec that an import wrote")
+    spec = Path(specs[0])
+    if not is_file(spec):
+        raise UsageError(f"there is no file '{spec}'")
+    return spec
+
+
+def _head_of(spec: Path, text: str) -> Head:
+    from linkforge_compile.importers.origin import read_head
+
+    head = read_head(text)
+    if head is None:
+        raise UsageError(
+            f"'{spec}' does not begin with the command that imported it and its digests; import it anew: "
+            f"linkforge import ROBOT.urdf -o {spec} --force"
+        )
+    return head
+
+
+def _import_again(spec: Path, written: argparse.Namespace, arguments: argparse.Namespace) -> Import:
+    """Import what the command in the spec names, as seen from the folder of the spec."""
+    from linkforge_compile.importing import import_urdf
+
+    if written.allow_outside and not arguments.allow_outside:
+        raise UsageError(f"'{spec}' was imported with --allow-outside; add it if you trust the files that it names")
+    (robot,), assignments = split_assignments(written.words)
+    folder = spec.parent
+    return import_urdf(
+        folder / robot,
+        srdf=folder / written.srdf if written.srdf else None,
+        arguments=assignments,
+        packages={**{name: folder / place for name, place in packages_of(written).items()}, **packages_of(arguments)},
+        allow_outside=arguments.allow_outside,
+        output=folder,
+    )
+
+
+def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) -> None:
+    """Print what differs in the robot of the spec, if it can be compiled before and after."""
+    from linkforge_compile.analysis import analyse_path
+    from linkforge_compile.cli.output import write_to_stdout
+    from linkforge_compile.compare import compare, removed_public_names
+
+    old, new = (analyse_path(spec, one).compilation.robot for one in _settings(spec, after, arguments))
+    if old is None or new is None:
+        return
+    differences = compare(old, new)
+    if differences:
+        labels = (f"{spec} as it is", "as imported now")
+        lines = difference_lines(labels, differences, removed_public_names(old, new))
+        write_to_stdout("".join(f"{line}\n" for line in lines))
+    else:
+        print_status(f"{spec} is the same robot; its text differs", arguments)
+
+
+class _User(NamedTuple):
+    """A spec that reads the refreshed one, and the diagnostics that it did not have before."""
+
+    spec: Path
+    news: tuple[Diagnostic, ...]
+
+    @property
+    def fits(self) -> bool:
+        return all(one.severity is not Severity.ERROR for one in self.news)
+
+
+def _report_users(spec: Path, after: str, arguments: argparse.Namespace) -> bool:
+    """Report what is new in the specs that use this one, below its folder and this one; True if there are errors."""
+    with progress_after("compiling the specs that use it", arguments):
+        users = list(_users_of(spec, after, arguments))
+    is_faulty = report((one for user in users for one in user.news), arguments)
+    for user in users:
+        if user.fits:
+            print_status(f"{user.spec} still fits", arguments)
+        else:
+            errors = sum(one.severity is Severity.ERROR for one in user.news)
+            print_failure(f"{user.spec} no longer fits: {count(errors, 'error')}", arguments)
+    return is_faulty
+
+
+def _users_of(spec: Path, after: str, arguments: argparse.Namespace) -> Iterator[_User]:
+    from linkforge_compile.analysis import analyse_path
+
+    old, new = _settings(spec, after, arguments)
+    for other in _specs_around(spec):
+        before = analyse_path(other, old).compilation
+        if identity(spec) in map(identity, before.files):
+            known = {(one.code, one.message) for one in before.diagnostics}
+            now = analyse_path(other, new).compilation.diagnostics
+            yield _User(other, tuple(one for one in now if (one.code, one.message) not in known))
+
+
+def _settings(spec: Path, after: str, arguments: argparse.Namespace) -> tuple[Settings, Settings]:
+    """Return how specs are compiled with the spec as it is, and with a new text in its place."""
+    from linkforge_compile.analysis import Settings
+    from linkforge_compile.expand import Unset
+
+    settings = Settings(packages=packages_of(arguments), unset=Unset.NOTE, allow_outside=arguments.allow_outside)
+    buffers: Mapping[str, str] = {identity(spec): after}
+    return settings, settings._replace(buffers=buffers)
+
+
+def _specs_around(spec: Path) -> list[Path]:
+    """Return the other specs below the working folder, and below that of the spec."""
+    from linkforge_compile.editor.folders import TooManyFilesError, find_specs
+
+    try:
+        found = {identity(other): other for folder in (Path(), spec.parent) for other in find_specs(folder)}
+    except TooManyFilesError as error:
+        raise UsageError(f"there are {error} here; run it in the folder of the robots that use the spec") from error
+    return [other for real, other in found.items() if real != identity(spec)]
