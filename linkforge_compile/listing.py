@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import ARGUMENTS_NOT_LISTED
 from linkforge_compile.expand.arguments import Arguments, Unset, Variants
 from linkforge_compile.expand.evaluate import Expressions
 from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
@@ -18,14 +16,9 @@ from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.load.locations import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
-from linkforge_compile.paths import folders_for_xacro
-from linkforge_compile.roots import identity
+from linkforge_compile.load.xacro_library import MacroParameter, read_library
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
-
-if TYPE_CHECKING:
-    from linkforge_compile.source import SourceFile, Span
-    from linkforge_compile.source.xml_tree import XmlElement
 
 Plain: TypeAlias = "None | bool | int | float | str | list[Plain] | dict[str, Plain]"
 """A value as in JSON: a quantity is its number in SI units, a whole number has no decimals."""
@@ -83,12 +76,16 @@ def _in_si(value: Plain, unit: str | None) -> str:
 
 
 class Listing(NamedTuple):
-    """The parameters of a file in the order written, and the settings of each variant, as written."""
+    """The parameters of a file in the order written, and the settings of each variant, as written.
+
+    `macros` are those of a xacro with their parameters; the type of a block is XML.
+    """
 
     name: str
     description: str = ""
     parameters: tuple[ListedParameter, ...] = ()
     variants: Mapping[str, Mapping[str, str]] = MappingProxyType({})
+    macros: Mapping[str, Sequence[ListedParameter]] = MappingProxyType({})
 
 
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
@@ -192,104 +189,33 @@ def _plain(value: Value) -> Plain:
     return value
 
 
-# The arguments of a xacro file, found by reading it and what it includes, without running xacro.
-
-_ARG_USE = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
-_SUBSTITUTION = re.compile(r"\$\((find|arg|dirname)\s*([^\s()]*)\s*\)")
-_MAX_INCLUDE_DEPTH = 50
-_COMPUTED_NAME = "its name is known only as xacro runs"
+# The arguments and macros of a xacro file
 
 
 def list_arguments(path: Path, loader: Loader, sink: Diagnostics, used: ImportSite | None = None) -> Listing | None:
-    """List the arguments of a xacro file, each with its first default; None after a reported error.
+    """List the arguments and macros of a xacro file; None after a reported error.
 
-    `used` is where a spec names the file, which it may then not be allowed to read; None for the command line.
-
-    A note reports an include that cannot be followed, because its name is computed or it cannot be read. Conditions
-    are ignored. An argument that is used but not declared is required.
+    `used` is where a spec names the file, which it may then not be allowed to read; None for the command line. An
+    argument has its first default, and one that is used but not declared is required. Notes report the includes that
+    cannot be followed.
     """
-    file = loader.open_xml(path, sink, used)
-    root = _read_root(file, sink) if file else None
-    if root is None:
+    library = read_library(path, loader, sink, used)
+    if library is None:
         return None
-    search = _ArgumentSearch(loader, sink)
-    search.search(root, path)
-    # xacro evaluates the attributes of <robot> first, before it has seen any default.
-    early = set(_ARG_USE.findall(" ".join(root.values.values())))
-    declared = [one._replace(default=None) if one.name in early else one for one in search.declared.values()]
-    undeclared = [ListedParameter(name, "string") for name in search.used if name not in search.declared]
-    name = root.get("name")
-    return Listing(name if name and "$" not in name else path.name, parameters=(*declared, *undeclared))
+    sink.report_all(library.notes)
+    declared = [
+        ListedParameter(name, "string", default=None if name in library.early else default)
+        for name, default in library.arguments.items()
+    ]
+    undeclared = [ListedParameter(name, "string") for name in library.used if name not in library.arguments]
+    name = library.name
+    return Listing(
+        name if name and "$" not in name else path.name,
+        parameters=(*declared, *undeclared),
+        macros={one.name: tuple(map(_listed_macro_parameter, one.parameters)) for one in library.macros.values()},
+    )
 
 
-def _read_root(file: SourceFile, sink: Diagnostics) -> XmlElement | None:
-    from linkforge_compile.importers.xml import read_xml
-
-    document = read_xml(file, sink)
-    return document.root if document else None
-
-
-class _NotListedError(Exception):
-    """An include cannot be followed; the message says why."""
-
-
-class _ArgumentSearch:
-    """Searches a xacro file and all that it includes, each once."""
-
-    def __init__(self, loader: Loader, sink: Diagnostics) -> None:
-        self.declared: dict[str, ListedParameter] = {}
-        self.used: dict[str, None] = {}
-        self._loader, self._sink = loader, sink
-        self._seen: set[str] = set()
-
-    def search(self, root: XmlElement, path: Path, depth: int = 0) -> None:
-        self._seen.add(identity(path))
-        for element in root.walk():
-            name, included = element.get("name"), element.get("filename")
-            if element.tag == "xacro:arg" and name:
-                self.declared.setdefault(name, ListedParameter(name, "string", default=element.get("default")))
-            elif element.tag == "xacro:include" and included is not None:
-                self._include(included, element, path, depth)
-        self.used |= dict.fromkeys(_ARG_USE.findall(root.raw))
-
-    def _include(self, name: str, element: XmlElement, user: Path, depth: int) -> None:
-        try:
-            path = user.parent / self._resolve(name, user)
-            if identity(path) in self._seen:
-                return
-            root = self._open(path, name, element.span, depth)
-        except _NotListedError as error:
-            if element.get("optional") not in ("true", "True", "1"):
-                self._sink.report(ARGUMENTS_NOT_LISTED.at(element.span, path=name, reason=str(error)))
-            return
-        self.search(root, path, depth + 1)
-
-    def _open(self, path: Path, name: str, place: Span, depth: int) -> XmlElement:
-        if depth == _MAX_INCLUDE_DEPTH:
-            raise _NotListedError(f"more than {_MAX_INCLUDE_DEPTH} files include each other")
-        faults = Diagnostics()
-        file = self._loader.open_xml(path, faults, ImportSite(name, place))
-        root = _read_root(file, faults) if file else None
-        if root is None:
-            raise _NotListedError(next(iter(faults)).message)
-        return root
-
-    def _resolve(self, name: str, user: Path) -> str:
-        """Return a file name with its substitutions replaced."""
-        text = _SUBSTITUTION.sub(lambda found: self._value(found[1], found[2], user), name)
-        if "$" in text or re.search(r"[*?\[]", text):
-            raise _NotListedError(_COMPUTED_NAME)
-        return text
-
-    def _value(self, kind: str, name: str, user: Path) -> str:
-        if kind == "dirname":
-            return str(user.parent.absolute())
-        if kind == "find":
-            folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
-            if folder is None:
-                raise _NotListedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
-            return str(folder)
-        argument = self.declared.get(name)
-        if argument is None or argument.default is None or "$" in argument.default:
-            raise _NotListedError(_COMPUTED_NAME)
-        return argument.default
+def _listed_macro_parameter(parameter: MacroParameter) -> ListedParameter:
+    kind = "string" if parameter.block is None else "XML"
+    return ListedParameter(parameter.name, kind, default=parameter.written_default)

@@ -180,7 +180,7 @@ def xacro_arguments(arguments: Arguments, sink: Diagnostics) -> dict[str, XacroA
 
 
 def _xacro_text(node: YamlNode, arguments: Arguments) -> str | Fault | None:
-    """Return an argument as text; FAULT after a reported error, None for a list, a map or nothing."""
+    """Return an argument as text; FAULT after a reported error, None for a map or nothing."""
     from linkforge_compile.expand.values import plain_value  # with the expressions, as below
     from linkforge_compile.expressions import Fault
 
@@ -188,12 +188,19 @@ def _xacro_text(node: YamlNode, arguments: Arguments) -> str | Fault | None:
         quantity = parse_quantity(node.text)
         return number_text(quantity.value) if quantity else node.text
     value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
+    if isinstance(value, tuple):  # such as the three numbers of an `xyz`
+        texts = [_text_of(item) for item in value]
+        return " ".join(text for text in texts if text) if None not in texts else None
+    return value if isinstance(value, Fault) else _text_of(value)
+
+
+def _text_of(value: Value) -> str | None:
     if isinstance(value, bool):
         return "true" if value else "false"
     number = value.value if isinstance(value, Quantity) else value
     if isinstance(number, int | float):
         return number_text(number)
-    return value if isinstance(value, str | Fault) else None
+    return value if isinstance(value, str) else None
 
 
 class Variants(NamedTuple):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note
-from linkforge_compile.diagnostics.codes.modules import SRDF_BESIDE_SPEC, USE_CYCLE, USE_TOO_DEEP
+from linkforge_compile.diagnostics.codes.modules import MACRO_OF_NO_XACRO, SRDF_BESIDE_SPEC, USE_CYCLE, USE_TOO_DEEP
 from linkforge_compile.expand.arguments import Arguments, Unset, report_unknown_variants, xacro_arguments
 from linkforge_compile.expand.defaults import compute_defaults, with_defaults
 from linkforge_compile.expand.evaluate import Evaluator, Expressions
@@ -16,7 +16,7 @@ from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
 from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
 from linkforge_compile.expand.modules import ModuleEntry, apply_override, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
+from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.load.locations import (
     SPEC_ENDINGS,
     PathSite,
@@ -103,46 +103,54 @@ class _Expander:
         if entry.use is None:
             return _unread(entry)
         sink = scope.evaluator.sink
-        spec, arguments = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
-        if spec is None:
+        spec, entry = self._open_robot(entry, scope.site(entry.use.text, entry.use.span), scope)
+        if spec is None or entry.use is None:
             return _unread(entry)
-        bound = BoundArguments(arguments, sink, entry.use.span)
+        bound = BoundArguments(entry.arguments, sink, entry.use.span)
         use = Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return instance if instance and entry.is_named else _unread(entry)
 
-    def _open_robot(self, entry: ModuleEntry, site: PathSite, scope: FileScope) -> tuple[SpecFile | None, Arguments]:
-        """Return the file that an entry uses with its SRDF merged, and the arguments that no xacro has used."""
+    def _open_robot(self, entry: ModuleEntry, site: PathSite, scope: FileScope) -> tuple[SpecFile | None, ModuleEntry]:
+        """Return the file that an entry uses with its SRDF merged, and the entry with what no xacro has used."""
         loader, sink = self._state.loader, scope.evaluator.sink
         srdf = entry.ref.node.child("srdf")
         if not isinstance(srdf, YamlScalar):
             return self._open(entry, site, frozenset(), sink)
         if site.text.lower().endswith(SPEC_ENDINGS):
             sink.report(SRDF_BESIDE_SPEC.at(srdf.span, path=site.text))
-            return None, entry.arguments
+            return None, entry
         srdf_use = _xacro_use(scope.site(srdf.text, srdf.span), loader, sink)
         semantic = open_semantic(srdf_use, entry.arguments, loader, sink) if srdf_use else None
         # An SRDF that cannot be read may have used any argument.
         used = semantic.arguments if semantic else None if srdf_use else frozenset[str]()
-        spec, arguments = self._open(entry, site, used, sink)
+        spec, entry = self._open(entry, site, used, sink)
         if spec is None or semantic is None or srdf_use is None:
-            return None, arguments
-        return _with_semantic(spec, semantic, srdf_use, loader, sink), arguments
+            return None, entry
+        return _with_semantic(spec, semantic, srdf_use, loader, sink), entry
 
     def _open(
         self, entry: ModuleEntry, site: PathSite, used: frozenset[str] | None, sink: Diagnostics
-    ) -> tuple[SpecFile | None, Arguments]:
-        """Return the file at a site, and the arguments left for it; its SRDF has `used` some, None if unknown."""
-        loader = self._state.loader
+    ) -> tuple[SpecFile | None, ModuleEntry]:
+        """Return the file at a site, and the entry with what is left for it; its SRDF has `used` some, None if unknown.
+
+        A macro of the file may have used other fields of the entry.
+        """
+        loader, macro = self._state.loader, entry.ref.node.child("macro")
         if not names_xacro(site, loader):
-            return open_use(site, loader, sink), entry.arguments.without(used or ())
+            if isinstance(macro, YamlScalar):
+                sink.report(MACRO_OF_NO_XACRO.at(macro.span, path=site.text))
+                return None, entry
+            return open_use(site, loader, sink), replace(entry, arguments=entry.arguments.without(used or ()))
+        use, texts = _xacro_use(site, loader, sink), xacro_arguments(entry.arguments, sink)
+        entry = replace(entry, arguments=Arguments())
+        if use is None:
+            return None, entry
+        if isinstance(macro, YamlScalar):
+            return _open_macro(replace(use, arguments=texts), macro, entry, loader, sink)
         from linkforge_compile.load.xacro import open_xacro
 
-        use = _xacro_use(site, loader, sink)
-        if use is None:
-            return None, Arguments()
-        texts = xacro_arguments(entry.arguments, sink)
-        return open_xacro(replace(use, arguments=texts, used_elsewhere=used), loader, sink), Arguments()
+        return open_xacro(replace(use, arguments=texts, used_elsewhere=used), loader, sink), entry
 
     def _is_bounded(self, use: Use, sink: Diagnostics) -> bool:
         """Whether a use is neither circular nor too deep; reports why not."""
@@ -154,6 +162,33 @@ class _Expander:
         else:
             return True
         return False
+
+
+def _open_macro(
+    use: XacroUse, macro: YamlScalar, entry: ModuleEntry, loader: Loader, sink: Diagnostics
+) -> tuple[SpecFile | None, ModuleEntry]:
+    """Return what a call of a macro makes, and the entry with the fields that attach it."""
+    from linkforge_compile.load.xacro_macro import MacroEntry, open_macro
+
+    fields = entry.ref.node
+    if not isinstance(fields, YamlMap):
+        return None, entry
+    parent = fields.get("parent")
+    call = MacroEntry(
+        entry.name,
+        macro,
+        parent if isinstance(parent, YamlScalar) else None,
+        fields.get("origin"),
+        entry.prefix,
+        fields.get("prefix") is not None,
+    )
+    # What is wrong inside is the macro's, so the call is where the file is used.
+    module = open_macro(replace(use, used=ImportSite(use.used.text, macro.span)), call, loader, sink)
+    if module is None:
+        return None, entry
+    for name, value in (("parent", module.parent), ("origin", module.origin)):
+        fields = fields.with_value(name, value) if value else fields
+    return module.spec, replace(entry, prefix=module.prefix, ref=replace(entry.ref, node=fields))
 
 
 def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap | None]:

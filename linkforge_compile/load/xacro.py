@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
+    MACROS_ONLY,
+    NOTHING_EXPANDED,
     XACRO_ARGUMENT_TOO_EARLY,
     XACRO_FAILED,
     XACRO_FILE_MISSING,
@@ -22,7 +24,9 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_WARNS,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
+from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
+from linkforge_compile.load.xacro_library import XacroLibrary, read_library
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.roots import exists
 from linkforge_compile.source import SourceFile, Span
@@ -30,8 +34,11 @@ from linkforge_compile.source import SourceFile, Span
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
     from linkforge_compile.importers.package_paths import PackagePaths
-    from linkforge_compile.importers.xacro import Expanded, Failed, Place, XacroAnswers
-    from linkforge_compile.source.xml_tree import XmlElement
+    from linkforge_compile.importers.xacro import Expanded, Failed, MacroCall, Place, XacroAnswers
+    from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
+
+Look: TypeAlias = "Callable[[XmlDocument], None]"
+"""Sees an expanded document."""
 
 FORBIDDEN = "LINKFORGE_NO_XACRO"
 """The environment variable that, set to anything, forbids expanding xacro files."""
@@ -52,9 +59,12 @@ class Expansion(NamedTuple):
     """The folders that `$(find ...)` gave, by package."""
 
 
-def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> SpecFile | None:
-    """Expand a xacro file and read it as a spec; None after a reported error."""
-    robot = read_xacro(use, loader, sink)
+def open_xacro(use: XacroUse, loader: Loader, sink: Diagnostics, look: Look | None = None) -> SpecFile | None:
+    """Expand a xacro file and read it as a spec; None after a reported error.
+
+    `look` sees the expanded document with the marks of places.
+    """
+    robot = read_xacro(use, loader, sink, look=look)
     if robot is None:
         return None
     (main, *others), imported = robot
@@ -70,6 +80,7 @@ def read_xacro(
     *,
     keeps_refused: bool = False,
     spec_folder: Path | None = None,
+    look: Look | None = None,
 ) -> tuple[tuple[SourceFile, ...], Imported] | None:
     """Expand a xacro file and read the robot; `keeps_refused` as in `read_urdf`. None after a reported error.
 
@@ -88,8 +99,32 @@ def read_xacro(
         paths = _package_paths(expansion, spec_folder, loader)
         # What the spec finds elsewhere is no loss, so its own check finds what xacro found.
         loader.packages = {**expansion.packages, **loader.packages}
-    imported = read_urdf(expansion.text, inside, expansion.moved, keeps_refused=keeps_refused, package_paths=paths)
+
+    def moved(document: XmlDocument) -> XmlDocument:
+        if look:
+            look(document)
+        return expansion.moved(document) if expansion.moved else document
+
+    faults = Diagnostics()
+    imported = read_urdf(expansion.text, faults, moved, keeps_refused=keeps_refused, package_paths=paths)
+    if NOTHING_EXPANDED in {one.code for one in faults} and (library := read_library(use.path, loader, Diagnostics())):
+        _report_macros_only(use, library, sink)
+    else:
+        inside.report_all(faults)
     return (expansion.files, imported) if imported else None
+
+
+def _report_macros_only(use: XacroUse, library: XacroLibrary, sink: Diagnostics) -> None:
+    macros = library.macros
+    if not macros:
+        sink.report(NOTHING_EXPANDED.at(use.used.where))
+        return
+    # Others, such as those of an inertia, are for these to call.
+    making = next(
+        (name for name, one in macros.items() if any(part.tag == "link" for part in one.element.walk())), None
+    )
+    notes = [Note(f"its macros are {listed([*macros], 'and')}")] if len(macros) > 1 else []
+    sink.report(MACROS_ONLY.at(use.used.where, path=use.used.text, macro=making or next(iter(macros)), notes=notes))
 
 
 def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> PackagePaths:
@@ -115,9 +150,9 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
         sink.report(XACRO_FORBIDDEN.at(use.used.where, path=use.used.text, variable=FORBIDDEN))
         return None
     answers = XacroAnswers(use.path, {**use.packages, **loader.packages}, loader.roots)
-    result = run_xacro(use.path, arguments, answers)
+    result = run_xacro(use.path, arguments, answers, use.call)
     while isinstance(result, Failed) and result.missing and answers.change_package(result.missing):
-        result = run_xacro(use.path, arguments, answers)
+        result = run_xacro(use.path, arguments, answers, use.call)
     written = WrittenElements(result, main, loader)
     inside = with_use_trace(sink, (use.used.where,))
     reporter = XacroReporter(use, written, loader, sink, inside)
@@ -146,7 +181,7 @@ class XacroUse:
 
     `arguments` is None if some are faulty, which is reported. `package` is the one through whose `package://` the file
     was reached. `used_elsewhere` are the arguments that the robot's other file uses; None if that file reports the
-    unknown ones.
+    unknown ones. With a `call`, the robot is what a macro of the file makes.
     """
 
     path: Path
@@ -155,6 +190,7 @@ class XacroUse:
     packages: Mapping[str, Path] = field(default_factory=dict)
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
+    call: MacroCall | None = None
 
 
 class WrittenElements:

@@ -53,6 +53,12 @@ def _lines(listing: Listing) -> Iterator[str]:
         yield from align(rows)
     else:
         yield "It has no parameters."
+    for macro, parameters in listing.macros.items():
+        yield ""
+        if parameters:
+            yield from align([(f"macro {macro}", "type", "default"), *(_row(one)[:3] for one in parameters)])
+        else:
+            yield f"macro {macro} has no parameters"
     if listing.variants:
         yield ""
         settings = {
@@ -76,6 +82,10 @@ def _json_text(listing: Listing) -> str:
         "name": listing.name,
         "description": listing.description,
         "parameters": [_json_parameter(parameter) for parameter in listing.parameters],
+        "macros": [
+            {"name": name, "parameters": [_json_parameter(parameter) for parameter in parameters]}
+            for name, parameters in listing.macros.items()
+        ],
         "variants": [{"name": name, "sets": dict(settings)} for name, settings in listing.variants.items()],
     }
     return json_text(document)

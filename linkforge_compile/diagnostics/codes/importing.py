@@ -29,9 +29,7 @@ LACKS_PART = Code("LF8065", _E, "this <{tag}> has no {what}, so readers of URDF 
 NAME_IS_TAKEN = Code("LF8160", _E, "there is a <{tag}> named '{name}' already; give each a name of its own")
 NO_TYPE_OF_JOINT = Code("LF8161", _E, "there is no type of joint named '{name}'")
 
-NOTHING_EXPANDED = Code(
-    "LF8066", _E, "the xacro expands to nothing; where it only declares macros, give the file that calls them"
-)
+NOTHING_EXPANDED = Code("LF8066", _E, "the xacro expands to nothing; give the file that makes the robot")
 
 # LF802x: what comes in, but not as its own kind
 KEPT_RAW = Code("LF8021", _W, "<{tag}> is kept as raw XML: {reason}")
@@ -57,9 +55,22 @@ XACRO_NOT_INSTALLED = Code(
     "LF8031", _E, "'{path}' needs the xacro package, which runs its expressions: pip install 'linkforge-compile[xacro]'"
 )
 XACRO_FAILED = Code("LF8032", _E, "xacro gives up here: {problem}")
-XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, or true or false")
+XACRO_ARGUMENT = Code("LF8033", _E, "'{name}' of a xacro file takes a text, a number, true or false, or a list of them")
 XACRO_FORBIDDEN = Code("LF8035", _E, "'{path}' is not expanded: the environment sets {variable}")
 XACRO_WARNS = Code("LF8034", _W, "xacro says: {text}")
+
+MACRO_BLOCK = Code("LF8036", _E, "block '{name}' of a macro takes raw XML, {what} such as '<box …/>', found '{found}'")
+MACRO_SETS_FIELD = Code(
+    "LF8037", _E, "parameter '{parameter}' of the macro is '{field}' of module '{name}', which is set; leave out one"
+)
+MACRO_PLACES_ITSELF = Code(
+    "LF8038",
+    _E,
+    "macro '{macro}' places itself, so 'origin' of module '{name}' has no effect; leave it out, and set its parameters",
+)
+MACROS_ONLY = Code(
+    "LF8039", _E, "'{path}' makes nothing, it declares macros; use one in a spec: {{use: {path}, macro: {macro}}}"
+)
 
 XACRO_ARGUMENT_TOO_EARLY = Code("LF8062", _E, "xacro uses '{name}' here, before it reads its default; write '{remedy}'")
 XACRO_UNKNOWN_NAME = Code("LF8063", _E, "xacro knows no {kind} named '{name}' here")

@@ -29,6 +29,7 @@ MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}
 NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
 SRDF_BESIDE_SPEC = Code("LF3017", _E, "'srdf' is for a URDF or a xacro; '{path}' has 'semantic' instead")
+MACRO_OF_NO_XACRO = Code("LF3018", _E, "'macro' is for a xacro file; '{path}' is none")
 USE_CYCLE = Code("LF3012", _E, "modules use each other in a cycle: {path}")
 USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
 

@@ -1,6 +1,7 @@
 """The program that expands one xacro file with the xacro package, with limits on memory and on what it may do.
 
-It reads a request from standard input, a line of JSON, and answers with one. In between it sends questions:
+It reads a request from standard input, a line of JSON, and answers with one. With a `call` in the request, the result
+is what a macro of the file makes, and nothing else of it. In between it sends questions:
 `{"find": NAME}` for the folder of a package, or null, and `{"may_read": PATH}` for true or false.
 
 Every element is marked with the index of its file and its index there, because the expanded text has no places, and
@@ -15,7 +16,7 @@ import os
 import re
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, TextIO, TypedDict
 from xml.dom import minidom
 from xml.dom.minidom import Comment, Element, Text
 
@@ -57,6 +58,7 @@ class _Run:
         self._place: str | None = None
         self._places: dict[int, str] = {}
         self._kept: list[Node] = []
+        self._call: Element | None = None
 
     def find(self, name: str) -> str:
         folder = self._ask({"find": name})
@@ -125,12 +127,15 @@ class _Run:
         """Record that xacro has reached an element, or a copy of it."""
         here: Node | None = element
         while isinstance(here, Element):
+            if here is self._call:
+                self._place = None
+                return
             if place := self._places.get(id(here)) or here.getAttribute(MARK):
                 self._place = place
                 return
             here = here.parentNode
 
-    def answer(self, path: str, arguments: dict[str, str]) -> _Answer:
+    def answer(self, path: str, arguments: dict[str, str], call: _Call | None) -> _Answer:
         write = Element.writexml
         try:
             import xacro
@@ -146,8 +151,8 @@ class _Run:
         self._watch(xacro)
         self.guard()
         try:
-            document = xacro.process_file(path, mappings=arguments, verbosity=1)
-            answer: _Answer = {"text": document.documentElement.toxml()}
+            root = self._expand(xacro, path, arguments, call)
+            answer: _Answer = {"text": root.toxml()}
         except _UnknownPackageError:
             answer = {"error": ""}  # the compiler knows which
         except RecursionError:
@@ -168,6 +173,36 @@ class _Run:
             "warnings": warnings,
             "place": self._place,
         }
+
+    def _expand(self, xacro: _Xacro, path: str, arguments: dict[str, str], call: _Call | None) -> Element:
+        xacro.init_stacks(path)
+        document = xacro.parse(None, path)
+        root = document.documentElement
+        assert root is not None, "a parsed document has a root"
+        aside = self._call_instead(document, root, call) if call else None
+        xacro.process_doc(document, mappings=arguments, verbosity=1)
+        if aside:
+            root.removeChild(aside)
+        return root
+
+    def _call_instead(self, document: Document, root: Element, call: _Call) -> Element:
+        """Put all that is in the root aside, where macros and properties are declared, and a call behind it."""
+        aside = document.createElement("linkforge-aside")
+        for child in list(root.childNodes):
+            aside.appendChild(child)
+        root.appendChild(aside)
+        self._call = document.createElement(f"xacro:{call['macro']}")
+        for name, value in call["values"].items():
+            self._call.setAttribute(name, value)
+        for block in call["blocks"]:
+            parsed = minidom.parseString(f'<block xmlns:xacro="http://www.ros.org/wiki/xacro">{block}</block>')
+            assert parsed.documentElement is not None, "the compiler has parsed it"
+            for child in parsed.documentElement.childNodes:
+                self._call.appendChild(document.importNode(child, deep=True))
+        root.appendChild(self._call)
+        if not root.getAttribute("name"):
+            root.setAttribute("name", call["macro"])
+        return aside
 
     def _watch(self, xacro: _Xacro) -> None:
         """Patch xacro so that what it parses is marked, and the element it works on is recorded."""
@@ -255,8 +290,17 @@ if TYPE_CHECKING:
     class _Xacro:
         """The attributes of the xacro module that are replaced."""
 
+        init_stacks: Callable[[str], None]
         parse: Callable[..., Document]
+        process_doc: Callable[..., None]
         print_location: Callable[[], None]
+
+    class _Call(TypedDict):
+        """A call of a macro: its parameters as text, and the XML of its blocks in order."""
+
+        macro: str
+        values: dict[str, str]
+        blocks: list[str]
 
 
 def _limit() -> None:
@@ -275,7 +319,8 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     _limit()
     request = json.loads(sys.stdin.readline())
-    answers.write(json.dumps(_Run(answers).answer(request["path"], request["arguments"])) + "\n")
+    answer = _Run(answers).answer(request["path"], request["arguments"], request["call"])
+    answers.write(json.dumps(answer) + "\n")
     answers.flush()
 
 

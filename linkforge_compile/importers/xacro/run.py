@@ -86,8 +86,28 @@ class _Answer(TypedDict, total=False):
     place: str | None
 
 
-def run_xacro(path: Path, arguments: Mapping[str, str], answers: XacroAnswers) -> Expanded | Failed:
-    """Expand a xacro file.
+class MacroCall(NamedTuple):
+    """A call of a macro of a file: the values of its parameters, and the XML of its blocks in the order declared."""
+
+    macro: str
+    values: Mapping[str, str]
+    blocks: tuple[str, ...]
+
+    @property
+    def request(self) -> dict[str, object]:
+        # What the user wrote is data, in which xacro evaluates nothing.
+        values = {name: _escaped(value) for name, value in self.values.items()}
+        return {"macro": self.macro, "values": values, "blocks": list(map(_escaped, self.blocks))}
+
+
+def _escaped(text: str) -> str:
+    return re.sub(r"\$+(?=[{(])", r"$\g<0>", text)
+
+
+def run_xacro(
+    path: Path, arguments: Mapping[str, str], answers: XacroAnswers, call: MacroCall | None = None
+) -> Expanded | Failed:
+    """Expand a xacro file, or one call of a macro that it declares.
 
     xacro evaluates the expressions of the file as Python code, so running it means trusting the file like a program.
     """
@@ -99,7 +119,10 @@ def run_xacro(path: Path, arguments: Mapping[str, str], answers: XacroAnswers) -
         timer = Timer(MAX_SECONDS, process.kill)
         timer.start()
         try:
-            _send(process.stdin, {"path": str(path.absolute()), "arguments": dict(arguments)})
+            _send(
+                process.stdin,
+                {"path": str(path.absolute()), "arguments": dict(arguments), "call": call and call.request},
+            )
             answer = _receive(process.stdout)
             while answer is not None and not answer.keys().isdisjoint(("find", "may_read")):
                 _send(process.stdin, _reply(answer, answers))
