@@ -87,6 +87,10 @@ class Listing(NamedTuple):
     variants: Mapping[str, Mapping[str, str]] = MappingProxyType({})
     macros: Mapping[str, Sequence[ListedParameter]] = MappingProxyType({})
 
+    def settable(self, macro: str | None = None) -> tuple[ListedParameter, ...]:
+        """Return what `with` of a module may have: for the file, or for a macro of it, if it has that."""
+        return (*self.macros.get(macro or "", ()), *self.parameters)
+
 
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; faults are reported, but not parameters without a value."""

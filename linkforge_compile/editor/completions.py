@@ -153,6 +153,16 @@ def complete_module(parameters: Sequence[ListedParameter], entries: Entries) -> 
     }
 
 
+def complete_macros(macros: Mapping[str, Sequence[ListedParameter]]) -> Schema:
+    """Return completions for an entry of `modules` that uses a macro: their names, and their parameters."""
+    names: list[Json] = [snippet(name, ", ".join(one.name for one in has)) for name, has in macros.items()]
+    rules: list[Json] = [
+        {"if": {"properties": {"macro": {"const": name}}, "required": ["macro"]}, "then": complete_module(has, {})}
+        for name, has in macros.items()
+    ]
+    return {"properties": {"macro": {"doNotSuggest": True, "allOf": [{"defaultSnippets": names}]}}, "allOf": rules}
+
+
 def _complete_override(entries: Sequence[str] | Entries) -> Schema:
     if isinstance(entries, Mapping):
         return _only_in({section: _complete_override(inner) for section, inner in entries.items()})

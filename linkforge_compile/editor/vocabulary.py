@@ -15,7 +15,7 @@ from linkforge_compile.diagnostics.suggest import suggestion_budget
 from linkforge_compile.expand import Arguments, Instance, Unset, expand
 from linkforge_compile.expand.instance import joint_name_of
 from linkforge_compile.fresh_stack import on_fresh_stack
-from linkforge_compile.listing import ListedParameter, list_parameters, list_used
+from linkforge_compile.listing import ListedParameter, Listing, list_parameters, list_used
 from linkforge_compile.load import Loader
 from linkforge_compile.lower import lower
 from linkforge_compile.roots import Roots
@@ -27,10 +27,11 @@ Entries: TypeAlias = Mapping[str, "Sequence[str] | Entries"]
 
 
 class UsedFile(NamedTuple):
-    """The parameters of a file that a spec uses as a module, and the names in it."""
+    """The parameters of a file that a spec uses as a module, the names in it, and those of its macros."""
 
     parameters: tuple[ListedParameter, ...] = ()
     entries: Entries = MappingProxyType({})
+    macros: Mapping[str, tuple[ListedParameter, ...]] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, ru
         included = (part.path for part in spec.included if part.path)
         files = dict.fromkeys((*found.files, *(_relative(part, root) for part in included)))
         own = list_parameters(spec, loader, Diagnostics()).parameters
-        used = {use: UsedFile(listing.parameters) for use, listing in list_used(spec, loader).items()}
+        used = {use: _used_file(listing) for use, listing in list_used(spec, loader).items()}
         has_name = spec.tree.get("name") is not None
         found = replace(found, files=tuple(files), parameters=own, used=used, has_name=has_name)
         expanded = expand(spec, Arguments(), loader, sink, unset=Unset.NOTE)
@@ -86,6 +87,10 @@ def _read_vocabulary(path: Path, root: Path, packages: Mapping[str, Path], *, ru
     is_whole = robot is not None and not sink.has_errors
     names = names_by_kind(robot) if robot else {}
     return replace(found, names=names, used=_used(expanded, used), entries=entries_of(expanded), is_whole=is_whole)
+
+
+def _used_file(listing: Listing) -> UsedFile:
+    return UsedFile(listing.parameters, macros={name: listing.settable(name) for name in listing.macros})
 
 
 def _without_meshes(instance: Instance) -> Instance:
@@ -98,7 +103,7 @@ def _used(instance: Instance, listed: Mapping[str, UsedFile]) -> dict[str, UsedF
     found = {**listed}
     for module in instance.modules:
         use = module.entry.node.child("use") if module.entry else None
-        if isinstance(use, YamlScalar) and module.tree:
+        if isinstance(use, YamlScalar) and module.tree and module.entry and module.entry.node.child("macro") is None:
             one = found.setdefault(use.text, UsedFile())
             found[use.text] = one if one.entries else one._replace(entries=entries_of(module))
     return found

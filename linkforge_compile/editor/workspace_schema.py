@@ -16,6 +16,7 @@ from linkforge_compile.editor.completions import (
     NAMES,
     Completions,
     SpecPaths,
+    complete_macros,
     complete_module,
     if_used,
     marked_names,
@@ -103,6 +104,7 @@ class _Modules:
             spec = posixpath.normpath(posixpath.join(folder, use))
             if spec not in self._names:
                 completions.append(if_used(use, complete_module(used.parameters, used.entries)))
+                completions += [if_used(use, complete_macros(used.macros))] if used.macros else []
             elif use != posixpath.relpath(spec, folder or "."):
                 completions.append(if_used(use, _reference(self._names[spec])))
         return completions

@@ -51,11 +51,26 @@ def parameters_in(context: Context, path: tuple[str | int, ...]) -> tuple[Listed
     try:
         if is_variant:
             return list_parameters(spec, loader, Diagnostics()).parameters
-        use = context.node((*path[:-1], "use"))
+        use, macro = (context.node((*path[:-1], key)) for key in ("use", "macro"))
         listing = list_use(spec, use, loader) if isinstance(use, YamlScalar) else None
     except BeyondLimitError:
         return ()
-    return listing.parameters if listing else ()
+    return listing.settable(macro.text if isinstance(macro, YamlScalar) else None) if listing else ()
+
+
+def offer_macros(context: Context) -> list[Offer]:
+    """Return the macros of the file that the module around the position uses, with their parameters."""
+    path = context.cursor.path
+    spec = context.readable.spec if context.readable else None
+    use = context.node((*path[:-1], "use")) if path[-3:-2] == ("modules",) and path[-1:] == ("macro",) else None
+    if spec is None or not isinstance(use, YamlScalar):
+        return []
+    try:
+        listing = list_use(spec, use, context.settings.loader(context.document.path))
+    except BeyondLimitError:
+        return []
+    macros = listing.macros.items() if listing else ()
+    return [Offer(name, name, Kind.Function, REQUIRED, ", ".join(one.name for one in has)) for name, has in macros]
 
 
 def facts_of(one: ListedParameter) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkforge_compile.lsp.completion.arguments import parameter_at, values_of
+from linkforge_compile.lsp.completion.arguments import offer_macros, parameter_at, values_of
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.files import endings_at, names_file, offer_files
 from linkforge_compile.lsp.completion.items import COMMON, KNOWN, LIKELY, REQUIRED, Kind, Offer, unique
@@ -22,7 +22,7 @@ def offer_values(context: Context) -> list[Offer]:
         return units
     if names_file(context):
         return offer_files(context, context.cursor.before, endings_at(context))
-    offers = [*offer_names(context), *(values_of(parameter) if parameter else ())]
+    offers = [*offer_names(context), *offer_macros(context), *(values_of(parameter) if parameter else ())]
     is_named = bool(kinds_of_values(context))
     for branch in context.branches:
         offers += _words(branch)
