@@ -5,7 +5,9 @@ What each module knows; it imports only those above it:
     spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
     loader            the files of one compile, each read once -> SpecFile
     locations         what a path in a spec names -> a file; a path relative to one file -> relative to another
+    xacro_library     a xacro file and what it includes -> the arguments and macros that they declare, by reading alone
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
+    xacro_macro       an entry of `modules` with `macro` -> the call of the macro, and the SpecFile that it makes
 """
 
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile

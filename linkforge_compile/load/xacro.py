@@ -108,23 +108,23 @@ def read_xacro(
     faults = Diagnostics()
     imported = read_urdf(expansion.text, faults, moved, keeps_refused=keeps_refused, package_paths=paths)
     if NOTHING_EXPANDED in {one.code for one in faults} and (library := read_library(use.path, loader, Diagnostics())):
-        _report_macros_only(use, library, sink)
+        _report_macros_only(use, library, expansion, sink)
     else:
         inside.report_all(faults)
     return (expansion.files, imported) if imported else None
 
 
-def _report_macros_only(use: XacroUse, library: XacroLibrary, sink: Diagnostics) -> None:
-    macros = library.macros
+def _report_macros_only(use: XacroUse, library: XacroLibrary, expansion: Expansion, sink: Diagnostics) -> None:
+    macros, where = library.macros, use.used.where or expansion.files[0].whole
     if not macros:
-        sink.report(NOTHING_EXPANDED.at(use.used.where))
+        sink.report(NOTHING_EXPANDED.at(where))
         return
     # Others, such as those of an inertia, are for these to call.
     making = next(
         (name for name, one in macros.items() if any(part.tag == "link" for part in one.element.walk())), None
     )
     notes = [Note(f"its macros are {listed([*macros], 'and')}")] if len(macros) > 1 else []
-    sink.report(MACROS_ONLY.at(use.used.where, path=use.used.text, macro=making or next(iter(macros)), notes=notes))
+    sink.report(MACROS_ONLY.at(where, path=use.used.text, macro=making or next(iter(macros)), notes=notes))
 
 
 def _package_paths(expansion: Expansion, spec_folder: Path, loader: Loader) -> PackagePaths:

@@ -110,11 +110,11 @@ OFFERED = {
     "a new module": ("modules:\n  |", ["module"]),
     "in a module": (
         "modules:\n  arm:\n    |",
-        ["joint", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
+        ["joint", "macro", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
     ),
     "half a key of a module in flow style": (
         "modules:\n  arm: {us|}",
-        ["joint", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
+        ["joint", "macro", "module", "origin", "override", "parent", "prefix", "srdf", "use", "with"],
     ),
     "a module's file": (
         "modules:\n  arm:\n    use: |",
@@ -240,7 +240,7 @@ IN_EXAMPLES = {
         "09_mobile_manipulator/mobile_manipulator",
         "    parent: torso\n",
         "    |\n",
-        ["joint", "module", "override", "parent", "srdf", "with"],
+        ["joint", "macro", "module", "override", "parent", "srdf", "with"],
     ),
     "a key of the semantic part": (
         "02_ur5e/ur5e_arm",

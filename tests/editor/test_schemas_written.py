@@ -53,7 +53,9 @@ VOCABULARIES = st.builds(
     files=st.lists(FILES, min_size=1, max_size=3, unique=True).map(tuple),
     names=named(st.sampled_from(["link", "joint", "material", "group"])),
     parameters=PARAMETERS,
-    used=st.dictionaries(FILES, st.builds(UsedFile, PARAMETERS, ENTRIES), max_size=2),
+    used=st.dictionaries(
+        FILES, st.builds(UsedFile, PARAMETERS, ENTRIES, st.dictionaries(NAMES, PARAMETERS, max_size=2)), max_size=2
+    ),
     entries=ENTRIES,
 )
 

@@ -101,6 +101,14 @@ def test_a_xacro_that_only_declares_macros_is_no_robot(name: str, tmp_path: Path
     file = tmp_path / "macros.xacro"
     file.write_text(f'<robot {name} xmlns:xacro="http://www.ros.org/wiki/xacro">{MACRO}</robot>', "utf-8")
     [diagnostic] = import_urdf(file).diagnostics
+    assert (diagnostic.code.id, diagnostic.span and diagnostic.span.line) == ("LF8039", 1)
+
+
+def test_a_xacro_that_makes_nothing_is_no_robot(tmp_path: Path):
+    file = tmp_path / "nothing.xacro"
+    empty = '<xacro:if value="false"><link name="a"/></xacro:if>'
+    file.write_text(f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{empty}</robot>', "utf-8")
+    [diagnostic] = import_urdf(file).diagnostics
     assert (diagnostic.code.id, diagnostic.span and diagnostic.span.line) == ("LF8066", 1)
 
 

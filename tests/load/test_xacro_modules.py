@@ -129,8 +129,8 @@ def test_an_argument_without_a_value_is_reported_at_the_use(vendor, tmp_path):
     )
 
 
-def test_an_argument_is_no_list(vendor, tmp_path):
-    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor, with: {reach: [1, 2]}}")
+def test_an_argument_is_no_map(vendor, tmp_path):
+    compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor, with: {reach: {a: 1}}}")
     assert compilation.diagnostics[0].code.id == "LF8033"
 
 

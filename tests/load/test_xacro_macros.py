@@ -1,0 +1,300 @@
+"""Macros of xacro files as modules: `use: FILE.xacro, macro: NAME`."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkforge_compile import Compilation, compile_file, import_urdf
+from linkforge_compile.compare import compare
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.importers.xacro import MacroCall
+from linkforge_compile.load import Loader
+from linkforge_compile.load.xacro_library import parameters_in, read_library
+from tests.cli.in_process import linkforge
+
+xacro = pytest.importorskip("xacro")
+
+ROOT = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
+INERTIA = f"""{ROOT}>
+<xacro:macro name="disc" params="m r h">
+  <inertial><mass value="${{m}}"/>
+  <inertia ixx="${{m*(3*r*r+h*h)/12}}" iyy="${{m*(3*r*r+h*h)/12}}" izz="${{m*r*r/2}}" ixy="0" ixz="0" iyz="0"/>
+  </inertial>
+</xacro:macro>
+</robot>
+"""
+PARTS = f"""{ROOT}>
+<xacro:include filename="inertia.xacro"/>
+<xacro:arg name="color" default="0.1 0.1 0.1 1"/>
+<xacro:property name="mass" value="0.19"/>
+<link name="not_a_part_of_a_macro"/>
+<xacro:macro name="lidar" params="prefix:='' parent *origin radius:=0.035">
+  <link name="${{prefix}}laser">
+    <visual><geometry><cylinder radius="${{radius}}" length="${{radius * 1.2}}"/></geometry>
+      <material name="${{prefix}}dark"><color rgba="$(arg color)"/></material></visual>
+    <xacro:disc m="${{mass}}" r="${{radius}}" h="0.04"/>
+  </link>
+  <joint name="${{prefix}}laser_joint" type="fixed">
+    <xacro:insert_block name="origin"/><parent link="${{parent}}"/><child link="${{prefix}}laser"/>
+  </joint>
+  <gazebo reference="${{prefix}}laser">
+    <sensor type="ray" name="${{prefix}}scan"><topic>/${{prefix}}scan</topic></sensor>
+  </gazebo>
+</xacro:macro>
+<xacro:macro name="wheel" params="name parent xyz **shape">
+  <link name="${{name}}_wheel"><visual><geometry><xacro:insert_block name="shape"/></geometry></visual></link>
+  <joint name="${{name}}_axle" type="continuous">
+    <origin xyz="${{xyz}}"/><parent link="${{parent}}"/><child link="${{name}}_wheel"/><axis xyz="0 1 0"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="gripper" params="tf_prefix width:=${{2*0.04}}">
+  <link name="${{tf_prefix}}_palm"/>
+  <link name="${{tf_prefix}}_finger"/>
+  <joint name="${{tf_prefix}}_slide" type="prismatic">
+    <parent link="${{tf_prefix}}_palm"/><child link="${{tf_prefix}}_finger"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="${{width}}" effort="1" velocity="1"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="mast" params="prefix parent height:=^|0.5 *origin">
+  <xacro:lidar prefix="${{prefix}}top_" parent="${{parent}}" radius="0.05">
+    <xacro:insert_block name="origin"/>
+  </xacro:lidar>
+</xacro:macro>
+</robot>
+"""
+
+Cell = Callable[..., Compilation]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "parts.xacro").write_text(PARTS, "utf-8")
+    (tmp_path / "inertia.xacro").write_text(INERTIA, "utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def cell(folder: Path) -> Cell:
+    """Return a function that compiles a robot with the link `deck` and some modules of parts.xacro."""
+
+    def compiled(*modules: str) -> Compilation:
+        lines = "".join("  " + module.replace("{", "{use: parts.xacro, ", 1) + "\n" for module in modules)
+        spec = folder / "cell.robot.yaml"
+        spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{deck: }}\nmodules:\n{lines}", "utf-8")
+        return compile_file(spec)
+
+    return compiled
+
+
+def codes(compilation: Compilation) -> list[tuple[str, int]]:
+    return [
+        (one.code.id, one.span.line if one.span else 0) for one in compilation.diagnostics if one.code.id != "LF6021"
+    ]
+
+
+MODULES_AND_CALLS = {
+    "a block, a prefix and a parent": (
+        "front: {macro: lidar, parent: deck, origin: {xyz: [20 cm, 0, 0], rpy: [0, 0, 0.25]}, with: {radius: 4 cm}}",
+        '<xacro:lidar prefix="front_" parent="deck" radius="0.04"><origin xyz="0.2 0 0" rpy="0 0 0.25"/></xacro:lidar>',
+    ),
+    "no origin": (
+        "front: {macro: lidar, parent: deck}",
+        '<xacro:lidar prefix="front_" parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
+    ),
+    "an origin as raw XML": (
+        "front: {macro: lidar, parent: deck, with: {origin: '<origin xyz=\"0 0 0.1\"/>'}}",
+        '<xacro:lidar prefix="front_" parent="deck"><origin xyz="0 0 0.1"/></xacro:lidar>',
+    ),
+    "the parent in `with`": (
+        "front: {macro: lidar, with: {parent: deck}, prefix: ''}",
+        '<xacro:lidar parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
+    ),
+    "the prefix in `with`": (
+        "front: {macro: lidar, parent: deck, with: {prefix: x_}}",
+        '<xacro:lidar prefix="x_" parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
+    ),
+    "a place and a shape": (
+        "a: {macro: wheel, parent: deck, prefix: '', with: {name: left, xyz: [0, 20 cm, 0], "
+        "shape: '<sphere radius=\"0.1\"/>'}}",
+        '<xacro:wheel name="left" parent="deck" xyz="0 0.2 0"><shape><sphere radius="0.1"/></shape></xacro:wheel>',
+    ),
+    "an argument of the file": (
+        "front: {macro: lidar, parent: deck, with: {color: [1, 0, 0, 1]}}",
+        '<xacro:lidar prefix="front_" parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
+    ),
+    "a macro that calls another": (
+        "front: {macro: mast, parent: deck, origin: [0, 0, 1]}",
+        '<xacro:mast prefix="front_" parent="deck"><origin xyz="0 0 1"/></xacro:mast>',
+    ),
+}
+
+
+@pytest.mark.parametrize(("module", "call"), MODULES_AND_CALLS.values(), ids=MODULES_AND_CALLS)
+def test_a_module_is_what_xacro_makes_of_the_call(module: str, call: str, cell: Cell, folder: Path):
+    parts = PARTS.replace('<link name="not_a_part_of_a_macro"/>', "").replace(ROOT, f'{ROOT} name="cell"')
+    parts = parts.replace("0.1 0.1 0.1 1", "1.0 0.0 0.0 1.0") if "color" in module else parts
+    (folder / "expected.xacro").write_text(parts.replace("</robot>", f'<link name="deck"/>{call}</robot>'), "utf-8")
+    command = [sys.executable, "-c", "import xacro; xacro.main()", "expected.xacro", "-o", "expected.urdf"]
+    subprocess.run(command, cwd=folder, check=True)
+    spec = import_urdf(folder / "expected.urdf").text
+    assert spec
+    (folder / "expected.robot.yaml").write_text(spec, "utf-8")
+    made = cell(module)
+    assert codes(made) == []
+    assert not list(compare(compile_file(folder / "expected.robot.yaml").result(), made.result(), tolerance=0))
+
+
+def test_a_macro_without_a_parent_is_attached_by_the_joint_of_its_entry(cell: Cell):
+    robot = cell("hand: {macro: gripper, parent: deck, origin: [0, 0, 1], joint: wrist}").result()
+    assert [link.name for link in robot.links] == ["deck", "hand_palm", "hand_finger"]  # no `hand__palm`
+    wrist = next(joint for joint in robot.joints if joint.name == "wrist")
+    assert (wrist.parent, wrist.child, wrist.origin.xyz.to_tuple()) == ("deck", "hand_palm", (0, 0, 1))
+    slide = next(joint for joint in robot.joints if joint.name == "hand_slide")
+    assert slide.limits
+    assert slide.limits.upper == 0.08
+
+
+def test_a_prefix_reaches_the_texts_of_plugins(cell: Cell):
+    robot = cell("front: {macro: lidar, parent: deck}", "rear: {macro: lidar, parent: deck}").result()
+    assert [link.name for link in robot.links] == ["deck", "front_laser", "rear_laser"]
+    urdf = robot.export_urdf()
+    assert "<topic>/front_scan</topic>" in urdf
+    assert "<topic>/rear_scan</topic>" in urdf
+
+
+def test_an_override_has_the_names_of_the_robot(cell: Cell):
+    module = "front: {macro: lidar, parent: deck, override: {links: {front_laser: {inertial: {mass: 1}}}}}"
+    laser = next(link for link in cell(module).result().links if link.name == "front_laser")
+    assert laser.mass == 1
+
+
+FAULTS = {
+    "no such macro": ("a: {macro: lidr, parent: deck}", "LF8063", 5, "named 'lidr' here; did you mean 'lidar'?"),
+    "no such parameter": ("a: {macro: lidar, parent: deck, with: {radus: 1}}", "LF3020", 5, "did you mean 'radius'?"),
+    "a parameter is missing": (
+        "a: {macro: wheel, parent: deck, with: {xyz: 0 0 0, shape: <box/>}}",
+        "LF3021",
+        5,
+        "parameter 'name' of macro 'wheel' has no default and must be set; write 'with: {name: VALUE}'",
+    ),
+    "a block is missing": (
+        "a: {macro: wheel, parent: deck, with: {xyz: 0 0 0, name: a}}",
+        "LF3021",
+        5,
+        "block 'shape' of macro 'wheel' has no default and must be set; write 'with: {shape: '<…/>'}'",
+    ),
+    "a block is no XML": (
+        "a: {macro: wheel, parent: deck, with: {xyz: 0 0 0, name: a, shape: <box}}",
+        "LF8036",
+        5,
+        "block 'shape' of a macro takes raw XML, elements such as '<box …/>', found '<box'",
+    ),
+    "two parents": (
+        "a: {macro: lidar, parent: deck, with: {parent: deck}}",
+        "LF8037",
+        5,
+        "parameter 'parent' of the macro is 'parent' of module 'a', which is set; leave out one",
+    ),
+    "two prefixes": (
+        "a: {macro: lidar, parent: deck, with: {prefix: x}, prefix: y}",
+        "LF8037",
+        5,
+        "parameter 'prefix' of the macro is 'prefix' of module 'a'",
+    ),
+    "an origin without effect": (
+        "a: {macro: wheel, parent: deck, origin: [0, 0, 1], with: {name: a, xyz: 0 0 0, shape: <box size='1 1 1'/>}}",
+        "LF8038",
+        5,
+        "macro 'wheel' places itself, so 'origin' of module 'a' has no effect",
+    ),
+}
+
+
+@pytest.mark.parametrize(("module", "code", "line", "message"), FAULTS.values(), ids=FAULTS)
+def test_a_fault_of_the_entry_is_reported_at_it(module: str, code: str, line: int, message: str, cell: Cell):
+    compilation = cell(module)
+    assert codes(compilation) == [(code, line)]
+    assert message in compilation.diagnostics[0].message
+
+
+def test_a_fault_in_a_macro_is_at_its_line_and_names_the_call(cell: Cell):
+    (fault,) = cell("a: {macro: lidar, parent: deck, with: {radius: wide}}").diagnostics
+    assert fault.span
+    assert (fault.code.id, fault.span.file.path and fault.span.file.path.name) == ("LF8032", "parts.xacro")
+    assert 'length="${radius * 1.2}"' in fault.span.file.text.splitlines()[fault.span.line - 1]
+    assert [(note.message, note.span and note.span.line) for note in fault.notes] == [("used here", 5)]
+
+
+def test_what_the_user_writes_is_no_expression():
+    call = MacroCall("wheel", {"name": "${1+1}$(arg x)$${y}", "xyz": "$5"}, ('<box size="${z}"/>',))
+    assert call.request == {
+        "macro": "wheel",
+        "values": {"name": "$${1+1}$$(arg x)$$${y}", "xyz": "$5"},
+        "blocks": ['<box size="$${z}"/>'],
+    }
+
+
+def test_macros_are_not_expanded_where_that_is_forbidden(cell: Cell, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("LINKFORGE_NO_XACRO", "1")
+    assert codes(cell("a: {macro: lidar, parent: deck}")) == [("LF8035", 5)]
+
+
+def test_params_lists_macros(folder: Path):
+    done = linkforge("params", "parts.xacro", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    blocks = done.stdout.split("\n\n")
+    lidar = next(block for block in blocks if block.startswith("macro lidar")).splitlines()
+    assert [line.split() for line in lidar[1:]] == [
+        ["prefix", "string", '""'],
+        ["parent", "string", "(required)"],
+        ["origin", "XML", "(required)"],
+        ["radius", "string", "0.035"],
+    ]
+    assert any(block.startswith("macro disc") for block in blocks)
+
+
+def test_deps_lists_the_files_of_a_macro(folder: Path, cell: Cell):
+    cell("a: {macro: lidar, parent: deck}")
+    done = linkforge("deps", "cell.robot.yaml", "--format", "json", cwd=folder)
+    assert '"parts.xacro"' in done.stdout
+    assert "inertia.xacro" in done.stdout
+
+
+NAMES = st.from_regex(r"[a-z_]{1,4}", fullmatch=True)
+DEFAULTS = st.sampled_from(["", "0", "'a b'", '"x"', "${2 * r}", "$(arg a b)", "a-b", "'${a b}'"])
+PARAMETERS = st.one_of(
+    NAMES,
+    st.builds("{}{}".format, st.sampled_from(["*", "**"]), NAMES),
+    st.builds("{}{}{}".format, NAMES, st.sampled_from([":=", "="]), DEFAULTS.filter(bool)),
+    st.builds("{}:=^".format, NAMES),
+    st.builds("{}:=^|{}".format, NAMES, DEFAULTS.filter(bool)),
+)
+
+
+@given(st.lists(PARAMETERS, max_size=5), st.sampled_from([" ", "  "]))
+def test_parameters_are_read_as_xacro_reads_them(written: list[str], blank: str):
+    rest, expected = blank.join(written), []
+    while rest.strip():
+        name, value, rest = xacro.parse_macro_arg(rest)
+        forward, default = value or (None, None)
+        expected.append((name, forward is not None, default))
+    found = [
+        ((one.block or "") + one.name, one.is_forwarded, one.default) for one in parameters_in(blank.join(written))
+    ]
+    unquoted = [
+        (name, forward, default[1:-1] if default and default[0] == default[-1] and default[0] in "'\"" else default)
+        for name, forward, default in expected
+    ]
+    assert found == unquoted
+
+
+def test_macros_of_a_namespace_have_its_name(folder: Path):
+    (folder / "all.xacro").write_text(f'{ROOT}><xacro:include filename="parts.xacro" ns="lib"/></robot>', "utf-8")
+    library = read_library(folder / "all.xacro", Loader(), Diagnostics())
+    assert library
+    assert "lib.lidar" in library.macros
