@@ -16,7 +16,7 @@ from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
 from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
 from linkforge_compile.expand.modules import ModuleEntry, apply_override, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
+from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
 from linkforge_compile.load.locations import (
     SPEC_ENDINGS,
     PathSite,
@@ -147,7 +147,9 @@ class _Expander:
         if use is None:
             return None, entry
         if isinstance(macro, YamlScalar):
-            return _open_macro(replace(use, arguments=texts), macro, entry, loader, sink)
+            from linkforge_compile.expand.macro_module import open_macro
+
+            return open_macro(replace(use, arguments=texts), macro, entry, loader, sink)
         from linkforge_compile.load.xacro import open_xacro
 
         return open_xacro(replace(use, arguments=texts, used_elsewhere=used), loader, sink), entry
@@ -162,33 +164,6 @@ class _Expander:
         else:
             return True
         return False
-
-
-def _open_macro(
-    use: XacroUse, macro: YamlScalar, entry: ModuleEntry, loader: Loader, sink: Diagnostics
-) -> tuple[SpecFile | None, ModuleEntry]:
-    """Return what a call of a macro makes, and the entry with the fields that attach it."""
-    from linkforge_compile.load.xacro_macro import MacroEntry, open_macro
-
-    fields = entry.ref.node
-    if not isinstance(fields, YamlMap):
-        return None, entry
-    parent = fields.get("parent")
-    call = MacroEntry(
-        entry.name,
-        macro,
-        parent if isinstance(parent, YamlScalar) else None,
-        fields.get("origin"),
-        entry.prefix,
-        fields.get("prefix") is not None,
-    )
-    # What is wrong inside is the macro's, so the call is where the file is used.
-    module = open_macro(replace(use, used=ImportSite(use.used.text, macro.span)), call, loader, sink)
-    if module is None:
-        return None, entry
-    for name, value in (("parent", module.parent), ("origin", module.origin)):
-        fields = fields.with_value(name, value) if value else fields
-    return module.spec, replace(entry, prefix=module.prefix, ref=replace(entry.ref, node=fields))
 
 
 def _robot_tree(spec: SpecFile, evaluator: Evaluator) -> tuple[YamlMap, YamlMap | None]:

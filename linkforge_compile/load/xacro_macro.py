@@ -1,4 +1,4 @@
-"""Open a macro of a xacro file as a module: make the call that an entry of `modules` means, and attach what it makes.
+"""Make the call of a macro of a xacro file that an entry of `modules` means.
 
 Macros are written to be called in a robot. Most take the link to which they attach their own joint, the place of that
 joint as a block, and a prefix for their names, which an entry of `modules` has as `parent`, `origin` and `prefix`:
@@ -10,20 +10,19 @@ joint as a block, and a prefix for their names, which an entry of `modules` has 
       </joint>
     </xacro:macro>
 
-So the joint to the parent becomes the `mount` of the module, and a prefix that the macro puts is not put twice.
+So these go where the macro wants them, and a prefix that it puts is not put twice.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
     MACRO_BLOCK,
-    MACRO_PLACES_ITSELF,
     MACRO_SETS_FIELD,
     XACRO_UNKNOWN_NAME,
 )
@@ -36,15 +35,15 @@ from linkforge_compile.load.xacro_library import Macro, MacroParameter, XacroLib
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.malformed_xml import MalformedXmlError
 from linkforge_compile.source.xml_tree import parse_xml
-from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlNode, YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.source.xml_tree import XmlDocument
+    from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
 
 ORIGIN = "origin"
 """The block that an entry of `modules` gives as its `origin`."""
 
-_STAND_IN = "world"
+STAND_IN = "world"
 """The parent of a macro that is used without one."""
 
 _IDENTITY = '<origin xyz="0 0 0" rpy="0 0 0" {}=""/>'
@@ -62,20 +61,24 @@ class MacroEntry(NamedTuple):
     has_prefix: bool
 
 
-class MacroModule(NamedTuple):
+class MacroResult(NamedTuple):
     """What a call makes; `prefix` is still to be put before its names.
 
-    `parent` and `origin` are those of the joint that attaches it, where `with` or the macro itself sets them.
+    `parent` is the link, not among its own, to which it attaches its joint; `placed` are the names of the joints there
+    whose origin is that of the entry, None for all of them.
     """
 
     spec: SpecFile
     prefix: str
-    parent: YamlScalar | None = None
-    origin: YamlNode | None = None
+    parent: YamlScalar
+    placed: frozenset[str] | None
+
+    def is_placed(self, joint: str) -> bool:
+        return self.placed is None or joint in self.placed
 
 
-def open_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnostics) -> MacroModule | None:
-    """Call a macro of a xacro file and read what it makes as a module; None after a reported error.
+def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnostics) -> MacroResult | None:
+    """Call a macro of a xacro file and read what it makes as a spec; None after a reported error.
 
     The arguments of the use are for the macro, and for the file.
     """
@@ -94,7 +97,8 @@ def open_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnosti
     scan = _Scan(arguments.parent.text)
     use = replace(use, arguments=arguments.of_file, used_elsewhere=None, call=call)
     spec = open_xacro(use, loader, sink, scan.look_at)
-    return _attached(spec, arguments, scan) if spec else None
+    placed = None if arguments.is_placed_by_entry else frozenset(scan.joints)
+    return MacroResult(spec, arguments.prefix, arguments.parent, placed) if spec else None
 
 
 def _find(name: YamlScalar, library: XacroLibrary, sink: Diagnostics) -> Macro | None:
@@ -125,8 +129,8 @@ class _Arguments:
     prefix: str = ""
     parent: YamlScalar = field(init=False)
     """The link to which the macro attaches its joint."""
-    has_origin: bool = False
-    """Whether the macro takes the origin of the entry as a block."""
+    is_placed_by_entry: bool = False
+    """Whether the macro takes its place in the parameters of an `xyz` and an `rpy`, and the entry gives it instead."""
 
     def __post_init__(self) -> None:
         for name, argument in self.given.items():
@@ -135,8 +139,10 @@ class _Arguments:
                 self.values[name] = argument
             elif not parameter:
                 self._give_to_file(name, argument)
-        self._set_prefix()
-        self._set_parent()
+        roles = [*_roles(self.macro, self.library, frozenset())]
+        self._set_prefix(_own_prefix(self.macro, roles))
+        self._set_parent(next(_parameters_with("parent", self.macro, roles), None))
+        self._set_place([next(_parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
 
     def _give_to_file(self, name: str, argument: XacroArgument) -> None:
         known = (*(one.name for one in self.macro.parameters), *self.library.arguments, *self.library.used)
@@ -146,8 +152,8 @@ class _Arguments:
         declared = Note(f"macro '{self.macro.name}' is declared here", self.macro.element.span)
         self._report(UNKNOWN_PARAMETER.at(argument.where, name=name, near=known, notes=[declared]))
 
-    def _set_prefix(self) -> None:
-        entry, own = self.entry, _own_prefix(self.macro, self.library)
+    def _set_prefix(self, own: _OwnPrefix | None) -> None:
+        entry = self.entry
         if own is None:
             self.prefix = entry.prefix
         elif own.name in self.values:
@@ -157,9 +163,9 @@ class _Arguments:
             text = entry.prefix.removesuffix("_") if own.adds_underscore else entry.prefix
             self.values[own.name] = XacroArgument(text, entry.macro.span)
 
-    def _set_parent(self) -> None:
-        entry, own = self.entry, _own_parent(self.macro, self.library)
-        self.parent = entry.parent or YamlScalar(_STAND_IN, _STAND_IN, entry.macro.span)
+    def _set_parent(self, own: str | None) -> None:
+        entry = self.entry
+        self.parent = entry.parent or YamlScalar(STAND_IN, STAND_IN, entry.macro.span)
         given = self.values.get(own) if own else None
         if own is None:
             return
@@ -169,6 +175,13 @@ class _Arguments:
             self.parent = YamlScalar(given.text, given.text, given.where)
         else:
             self._refuse(own, "parent")
+
+    def _set_place(self, own: Sequence[str | None]) -> None:
+        names = [name for name in own if name and name not in self.values]
+        parameters = [one for name in names if (one := self.macro.parameter(name))]
+        if len(parameters) == len(own) and (self.entry.origin or all(one.is_required for one in parameters)):
+            self.is_placed_by_entry = True
+            self.values |= {name: XacroArgument("0 0 0", self.entry.macro.span) for name in names}
 
     def _refuse(self, parameter: str, field: str) -> None:
         where, name = self.values[parameter].where, self.entry.name
@@ -180,7 +193,6 @@ class _Arguments:
 
         given = self.given.get(parameter.name)
         if given is None and parameter.name == ORIGIN and parameter.block == "*":
-            self.has_origin = True
             return _IDENTITY.format(MARK)
         if given is None:
             self._require(parameter)
@@ -230,48 +242,64 @@ class _OwnPrefix(NamedTuple):
 
 
 class _Role(NamedTuple):
-    """What a parameter is for: the link above a joint, or the beginning of names."""
+    """What a parameter is for: the link above a joint, its place there, or the beginning of names."""
 
     parameter: str
-    kind: Literal["parent", "prefix", "prefix_"]
+    kind: Literal["parent", "xyz", "rpy", "prefix", "prefix_"]
 
 
 _ONLY = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
 _FIRST = re.compile(r"\s*\$\{\s*(\w+)\s*\}(_)?")
 
 
-def _own_parent(macro: Macro, library: XacroLibrary) -> str | None:
-    names = (role.parameter for role in _roles(macro, library, frozenset()) if role.kind == "parent")
-    return next((name for name in names if macro.parameter(name)), None)
+def _parameters_with(kind: str, macro: Macro, roles: Iterable[_Role]) -> Iterator[str]:
+    return (role.parameter for role in roles if role.kind == kind and macro.parameter(role.parameter))
 
 
-def _own_prefix(macro: Macro, library: XacroLibrary) -> _OwnPrefix | None:
-    roles = [role for role in _roles(macro, library, frozenset()) if role.kind != "parent"]
-    named = [role for role in roles if "prefix" in role.parameter and macro.parameter(role.parameter)]
-    if not named:
+def _own_prefix(macro: Macro, roles: Iterable[_Role]) -> _OwnPrefix | None:
+    named = [role for role in roles if "prefix" in role.kind and "prefix" in role.parameter]
+    name = next((role.parameter for role in named if macro.parameter(role.parameter)), None)
+    if name is None:
         return None
-    name = named[0].parameter
     return _OwnPrefix(name, all(role.kind == "prefix_" for role in named if role.parameter == name))
 
 
 def _roles(macro: Macro, library: XacroLibrary, callers: frozenset[str]) -> Iterator[_Role]:
     """Yield what names in a macro are for, also in the macros that it calls."""
     for element in macro.element.walk():
-        if element.tag == "parent" and (found := _ONLY.fullmatch(element.get("link") or "")):
-            yield _Role(found[1], "parent")
-        elif element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
+        if element.tag == "joint":
+            yield from _roles_in_joint(element)
+        if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
             yield _Role(found[1], "prefix_" if found[2] else "prefix")
         called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None
         if called and called.name not in callers:
-            for role in _roles(called, library, callers | {macro.name}):
-                parameter = called.parameter(role.parameter)
-                given = element.get(role.parameter)
-                if given is None and parameter and parameter.is_forwarded:
-                    yield role
-                elif given and (found := _ONLY.fullmatch(given)):
-                    yield _Role(found[1], role.kind)
-                elif given and role.kind != "parent" and (found := _FIRST.match(given)):
-                    yield _Role(found[1], "prefix_" if found[2] else "prefix")
+            inner = _roles(called, library, callers | {macro.name})
+            yield from filter(None, (_role_outside(role, called, element) for role in inner))
+
+
+def _roles_in_joint(joint: XmlElement) -> Iterator[_Role]:
+    """Yield the parameters that are the parent of a joint, and its place there."""
+    by_tag = {child.tag: child for child in joint.children}
+    parent = _ONLY.fullmatch(by_tag["parent"].get("link") or "") if "parent" in by_tag else None
+    if parent is None:
+        return
+    yield _Role(parent[1], "parent")
+    kinds: tuple[Literal["xyz", "rpy"], ...] = ("xyz", "rpy")
+    for kind in kinds:
+        if "origin" in by_tag and (found := _ONLY.fullmatch(by_tag["origin"].get(kind) or "")):
+            yield _Role(found[1], kind)
+
+
+def _role_outside(role: _Role, called: Macro, call: XmlElement) -> _Role | None:
+    """Return what a role of a parameter of a called macro is around the call."""
+    parameter, given = called.parameter(role.parameter), call.get(role.parameter)
+    if given is None:
+        return role if parameter and parameter.is_forwarded else None
+    if found := _ONLY.fullmatch(given):
+        return _Role(found[1], role.kind)
+    if "prefix" in role.kind and (found := _FIRST.match(given)):
+        return _Role(found[1], "prefix_" if found[2] else "prefix")
+    return None
 
 
 # What the call made
@@ -292,34 +320,3 @@ class _Scan:
             origins = [child for child in joint.children if child.tag == "origin"]
             if joint.tag == "joint" and links == [self._parent] and any(one.get(MARK) == "" for one in origins):
                 self.joints.add(joint.get("name") or "")
-
-
-def _attached(spec: SpecFile, arguments: _Arguments, scan: _Scan) -> MacroModule:
-    """Return the module with its joint to the parent as its `mount`."""
-    tree, entry = spec.tree, arguments.entry
-    joints = tree.section("joints")
-    at_parent = [] if arguments.parent.text in tree.section("links") else [*_joints_at(arguments.parent.text, joints)]
-    if not at_parent:
-        return MacroModule(spec, arguments.prefix)
-    own = next((one for one in at_parent if one.name not in scan.joints), None)
-    mount = YamlMap({one.name: YamlEntry(one.key, _without_ends(one.value)) for one in at_parent}, tree.span)
-    others = YamlMap({name: one for name, one in joints.items() if one not in at_parent}, tree.span)
-    tree = tree.with_value("joints", others) if others.entries else tree.without("joints")
-    spec = replace(spec, tree=tree.with_value("mount", mount))
-    parent = None if entry.parent else arguments.parent if arguments.parent.text != _STAND_IN else None
-    if own is None:
-        return MacroModule(spec, arguments.prefix, parent)
-    if entry.origin is not None:
-        note = Note("this joint attaches it", own.key.span)
-        report = MACRO_PLACES_ITSELF.at(entry.origin.span, macro=arguments.macro.name, name=entry.name, notes=[note])
-        arguments.sink.report(report)
-    origin = own.value.get("origin") if isinstance(own.value, YamlMap) else None
-    return MacroModule(spec, arguments.prefix, parent, origin)
-
-
-def _joints_at(parent: str, joints: Mapping[str, YamlEntry]) -> Iterable[YamlEntry]:
-    return (one for one in joints.values() if isinstance(one.value, YamlMap) and one.value.text("parent") == parent)
-
-
-def _without_ends(joint: YamlNode) -> YamlNode:
-    return joint.without("parent", "origin") if isinstance(joint, YamlMap) else joint

@@ -52,6 +52,12 @@ PARTS = f"""{ROOT}>
     <origin xyz="${{xyz}}"/><parent link="${{parent}}"/><child link="${{name}}_wheel"/><axis xyz="0 1 0"/>
   </joint>
 </xacro:macro>
+<xacro:macro name="camera" params="parent_link xyz rpy">
+  <link name="camera"/>
+  <joint name="camera_joint" type="fixed">
+    <origin xyz="${{xyz}}" rpy="${{rpy}}"/><parent link="${{parent_link}}"/><child link="camera"/>
+  </joint>
+</xacro:macro>
 <xacro:macro name="gripper" params="tf_prefix width:=${{2*0.04}}">
   <link name="${{tf_prefix}}_palm"/>
   <link name="${{tf_prefix}}_finger"/>
@@ -122,6 +128,14 @@ MODULES_AND_CALLS = {
         "a: {macro: wheel, parent: deck, prefix: '', with: {name: left, xyz: [0, 20 cm, 0], "
         "shape: '<sphere radius=\"0.1\"/>'}}",
         '<xacro:wheel name="left" parent="deck" xyz="0 0.2 0"><shape><sphere radius="0.1"/></shape></xacro:wheel>',
+    ),
+    "a place by parameters": (
+        "a: {macro: camera, parent: deck, prefix: '', with: {xyz: [1, 0, 0], rpy: 0 0 0.5}}",
+        '<xacro:camera parent_link="deck" xyz="1 0 0" rpy="0 0 0.5"/>',
+    ),
+    "an origin for parameters": (
+        "a: {macro: camera, parent: deck, prefix: '', origin: {xyz: [1, 0, 0], rpy: [0, 0, 0.5]}}",
+        '<xacro:camera parent_link="deck" xyz="1 0 0" rpy="0 0 0.5"/>',
     ),
     "an argument of the file": (
         "front: {macro: lidar, parent: deck, with: {color: [1, 0, 0, 1]}}",
@@ -210,7 +224,7 @@ FAULTS = {
         "a: {macro: wheel, parent: deck, origin: [0, 0, 1], with: {name: a, xyz: 0 0 0, shape: <box size='1 1 1'/>}}",
         "LF8038",
         5,
-        "macro 'wheel' places itself, so 'origin' of module 'a' has no effect",
+        "macro 'wheel' places itself, so 'origin' has no effect",
     ),
 }
 

@@ -1,0 +1,85 @@
+"""A macro of a xacro file as a module: its joint to a link that is not its own becomes the `mount` of the module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from linkforge_compile.diagnostics import Diagnostics, Note
+from linkforge_compile.diagnostics.codes.importing import MACRO_PLACES_ITSELF
+from linkforge_compile.expand.long_forms import with_frames_as_joints
+from linkforge_compile.expand.modules import ModuleEntry
+from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
+from linkforge_compile.load.xacro import XacroUse
+from linkforge_compile.load.xacro_macro import STAND_IN, MacroEntry, MacroResult, call_macro
+from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
+
+
+def open_macro(
+    use: XacroUse, macro: YamlScalar, entry: ModuleEntry, loader: Loader, sink: Diagnostics
+) -> tuple[SpecFile | None, ModuleEntry]:
+    """Return what a call of a macro makes, None after a reported error, and the entry with what attaches it."""
+    fields = entry.ref.node
+    assert isinstance(fields, YamlMap), "it has a key `macro`"
+    parent, has_prefix = fields.get("parent"), fields.get("prefix") is not None
+    parent = parent if isinstance(parent, YamlScalar) else None
+    call = MacroEntry(entry.name, macro, parent, fields.get("origin"), entry.prefix, has_prefix)
+    # What is wrong inside is the macro's, so the call is where the file is used.
+    result = call_macro(replace(use, used=ImportSite(use.used.text, macro.span)), call, loader, sink)
+    if result is None:
+        return None, entry
+    entry = replace(entry, prefix=result.prefix)
+    tree, joints = _without_joints_at(result.parent.text, result.spec.tree)
+    if not joints:
+        return result.spec, entry
+    if parent is None and result.parent.text != STAND_IN:
+        fields = fields.with_value("parent", result.parent)
+    fields = _with_own_origin(fields, joints, result, macro, sink)
+    mount = YamlMap({one.name: YamlEntry(one.key, _without_ends(one.value)) for one in joints}, tree.span)
+    return replace(result.spec, tree=tree.with_value("mount", mount)), replace(
+        entry, ref=replace(entry.ref, node=fields)
+    )
+
+
+def _with_own_origin(
+    fields: YamlMap, joints: Iterable[YamlEntry], result: MacroResult, macro: YamlScalar, sink: Diagnostics
+) -> YamlMap:
+    """Return the fields of an entry with the origin that the macro gives its joint, if it is not that of the entry."""
+    own = next((one for one in joints if not result.is_placed(one.name)), None)
+    if own is None:
+        return fields
+    if (origin := fields.get("origin")) is not None:
+        note = Note("this joint attaches it", own.key.span)
+        sink.report(MACRO_PLACES_ITSELF.at(origin.span, macro=macro.text, notes=[note]))
+    written = own.value.get("origin") if isinstance(own.value, YamlMap) else None
+    return fields.with_value("origin", written) if written else fields
+
+
+def _without_joints_at(parent: str, tree: YamlMap) -> tuple[YamlMap, list[YamlEntry]]:
+    """Return the tree of a robot without the joints to a link that is not its own, and these."""
+    if parent in tree.section("links"):
+        return tree, []
+    # An empty link with a fixed joint was read as a frame.
+    tree, frames = _without_entries_at(parent, "frames", tree)
+    if frames:
+        others = tree.get("frames")
+        one_way = with_frames_as_joints(tree.with_value("frames", _section(frames, tree)))
+        tree = one_way.with_value("frames", others) if others else one_way
+    return _without_entries_at(parent, "joints", tree)
+
+
+def _without_entries_at(parent: str, section: str, tree: YamlMap) -> tuple[YamlMap, list[YamlEntry]]:
+    entries = [*tree.section(section).values()]
+    found = [one for one in entries if isinstance(one.value, YamlMap) and one.value.text("parent") == parent]
+    left = [one for one in entries if one not in found]
+    if not found:
+        return tree, []
+    return (tree.with_value(section, _section(left, tree)) if left else tree.without(section)), found
+
+
+def _section(entries: Iterable[YamlEntry], tree: YamlMap) -> YamlMap:
+    return YamlMap({one.name: one for one in entries}, tree.span)
+
+
+def _without_ends(joint: YamlNode) -> YamlNode:
+    return joint.without("parent", "origin") if isinstance(joint, YamlMap) else joint
