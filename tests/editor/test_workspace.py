@@ -167,6 +167,7 @@ VENDOR = {
 <robot name="hand" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="width" default="0.1"/>
   <xacro:arg name="side" default="left"/>
+  <xacro:macro name="finger" params="reach:=0.1"><link name="tip"/></xacro:macro>
   <link name="$(arg side)_palm"/>
 </robot>
 """,
@@ -193,6 +194,11 @@ OF_VENDORS = {
     "the groups of its SRDF": ("use: arm.urdf, override: {semantic: {groups: {al|}}}", ["all"]),
     "the groups of a spec": ("use: tool.robot.yaml, override: {semantic: {groups: {ar|}}}", ["arm"]),
     "what an override reaches in a xacro": ("use: hand.urdf.xacro, override: {links: {pa|}}", ["left_palm"]),
+    "the macros of a xacro": ("use: hand.urdf.xacro, macro: |", ["finger"]),
+    "the parameters of a macro": (
+        "use: hand.urdf.xacro, macro: finger, with: {re|}",
+        ["reach", "side", "width"],
+    ),
     "the arguments of a xacro": ("use: hand.urdf.xacro, with: {wi|}", ["side", "width"]),
 }
 

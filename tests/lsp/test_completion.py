@@ -129,6 +129,20 @@ def test_arguments_of_a_xacro_are_offered(editor: Editor, tmp_path: Path):
     assert labels_at(editor, cell, text) == ["reach", "parameter"]
 
 
+def test_macros_of_a_xacro_are_offered_and_their_parameters(editor: Editor, tmp_path: Path):
+    root = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">{}</robot>'
+    macro = '<xacro:macro name="{}" params="{}"><link name="l"/></xacro:macro>'
+    (tmp_path / "parts.xacro").write_text(
+        root.format(macro.format("lidar", "radius:=1") + macro.format("wheel", "name"))
+    )
+    cell = tmp_path / "cell.robot.yaml"
+    entry = "linkforge: 1\nname: cell\nmodules:\n  arm:\n    use: parts.xacro\n    macro: {}"
+    editor.open(cell, entry.format("lidar\n"))
+    editor.diagnostics(cell)
+    assert labels_at(editor, cell, entry.format("¦\n")) == ["lidar", "wheel"]
+    assert labels_at(editor, cell, entry.format("lidar\n    with: {¦}\n")) == ["radius", "parameter"]
+
+
 def test_files_outside_of_what_a_spec_may_read_are_not_offered(editor: Editor, tmp_path: Path):
     (tmp_path / "other" / "secret").mkdir(parents=True)
     (tmp_path / "robot" / "meshes").mkdir(parents=True)
