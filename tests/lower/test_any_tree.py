@@ -21,7 +21,7 @@ from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 
-ELSEWHERE = {"linkforge", "description", "parameters", "variables", "data", "variants", "packages", "defaults"}
+ELSEWHERE = {"macro", "linkforge", "description", "parameters", "variables", "data", "variants", "packages", "defaults"}
 ELSEWHERE |= {"modules", "use", "srdf", "prefix", "with", "override"}
 """Keys that the stages before lowering read, or that only people do."""
 
