@@ -5,7 +5,7 @@ import contextlib
 import re
 import sys
 import threading
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Awaitable, Callable, Coroutine, Iterator, Sequence
 from pathlib import Path
 from typing import Self, TypeVar
 
@@ -83,6 +83,27 @@ class Editor:
         self._thread.join()
         self._loop.close()
 
+    @contextlib.contextmanager
+    def in_workspace(self, folder: Path) -> Iterator[None]:
+        """Open a folder, and close it with all of its documents."""
+        opened = types.WorkspaceFolder(folder.as_uri(), folder.name)
+        self._change_folders(added=[opened])
+        try:
+            yield
+        finally:
+            for uri in [*self._versions]:
+                self._close(uri)
+            self._change_folders(removed=[opened])
+            with self._news:
+                self._published.clear()
+
+    def _change_folders(
+        self, added: Sequence[types.WorkspaceFolder] = (), removed: Sequence[types.WorkspaceFolder] = ()
+    ) -> None:
+        event = types.WorkspaceFoldersChangeEvent(added, removed)
+        params = types.DidChangeWorkspaceFoldersParams(event)
+        self._send(lambda: self._client.workspace_did_change_workspace_folders(params))
+
     def wait(self, coroutine: Coroutine[object, object, _Answer]) -> _Answer:
         """Return the result of a coroutine of the client."""
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(TIMEOUT)
@@ -132,7 +153,9 @@ class Editor:
         return types.TextDocumentIdentifier(uri)
 
     def close(self, path: Path) -> None:
-        uri = path.as_uri()
+        self._close(path.as_uri())
+
+    def _close(self, uri: str) -> None:
         del self._versions[uri]
         document = types.TextDocumentIdentifier(uri)
         self._send(lambda: self._client.text_document_did_close(types.DidCloseTextDocumentParams(document)))
