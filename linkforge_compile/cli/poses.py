@@ -75,7 +75,7 @@ def _joint(robot: Robot, name: str) -> Joint:
 
 
 def _position(joint: Joint, text: str, pose: str) -> float:
-    from linkforge_compile.units import POSITION, number_text
+    from linkforge_compile.units import POSITION, parse_quantity
 
     unit = POSITION.text(joint.type.motion)
     value = _number(text, unit)
@@ -83,8 +83,10 @@ def _position(joint: Joint, text: str, pose: str) -> float:
         raise UsageError(f"--pose {pose}: takes a number in {unit}, or with its unit, found '{text}'")
     lower, upper = joint.bounds or (value, value)
     if not lower <= value <= upper:
-        limits = f"from {number_text(lower)} to {number_text(upper)} {unit}"
-        raise UsageError(f"--pose {pose}: '{joint.name}' is {limits}")
+        in_degrees = parse_quantity(text) is not None and unit == "rad"
+        shown, factor = ("deg", math.degrees(1)) if in_degrees else (unit, 1.0)
+        limits = " to ".join(f"{bound * factor:.6g} {shown}" for bound in (lower, upper))
+        raise UsageError(f"--pose {pose}: '{joint.name}' is from {limits}")
     return value
 
 
