@@ -141,7 +141,9 @@ class _Arguments:
                 self._give_to_file(name, argument)
         roles = [*_roles(self.macro, self.library, frozenset())]
         self._set_prefix(_own_prefix(self.macro, roles))
-        self._set_parent(next(_parameters_with("parent", self.macro, roles), None))
+        own = {*_parameters_with("link", self.macro, roles)}
+        parents = (name for name in _parameters_with("parent", self.macro, roles) if name not in own)
+        self._set_parent(next(parents, None))
         self._set_place([next(_parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
 
     def _give_to_file(self, name: str, argument: XacroArgument) -> None:
@@ -242,10 +244,10 @@ class _OwnPrefix(NamedTuple):
 
 
 class _Role(NamedTuple):
-    """What a parameter is for: the link above a joint, its place there, or the beginning of names."""
+    """What a parameter is for: the link above a joint, its place there, a link of the macro, or the start of names."""
 
     parameter: str
-    kind: Literal["parent", "xyz", "rpy", "prefix", "prefix_"]
+    kind: Literal["parent", "xyz", "rpy", "link", "prefix", "prefix_"]
 
 
 _ONLY = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
@@ -269,6 +271,8 @@ def _roles(macro: Macro, library: XacroLibrary, callers: frozenset[str]) -> Iter
     for element in macro.element.walk():
         if element.tag == "joint":
             yield from _roles_in_joint(element)
+        if element.tag == "link" and (found := _ONLY.fullmatch(element.get("name") or "")):
+            yield _Role(found[1], "link")
         if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
             yield _Role(found[1], "prefix_" if found[2] else "prefix")
         called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None

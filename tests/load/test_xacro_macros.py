@@ -33,6 +33,7 @@ PARTS = f"""{ROOT}>
 <xacro:arg name="color" default="0.1 0.1 0.1 1"/>
 <xacro:property name="mass" value="0.19"/>
 <link name="not_a_part_of_a_macro"/>
+<material name="steel"><color rgba="0.5 0.5 0.5 1"/></material>
 <xacro:macro name="lidar" params="prefix:='' parent *origin radius:=0.035">
   <link name="${{prefix}}laser">
     <visual><geometry><cylinder radius="${{radius}}" length="${{radius * 1.2}}"/></geometry>
@@ -56,6 +57,14 @@ PARTS = f"""{ROOT}>
   <link name="camera"/>
   <joint name="camera_joint" type="fixed">
     <origin xyz="${{xyz}}" rpy="${{rpy}}"/><parent link="${{parent_link}}"/><child link="camera"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="bracket" params="name parent *origin">
+  <link name="${{name}}"/>
+  <link name="${{name}}_top"><visual><geometry><box size="1 1 1"/></geometry><material name="steel"/></visual></link>
+  <joint name="${{name}}_top_joint" type="fixed"><parent link="${{name}}"/><child link="${{name}}_top"/></joint>
+  <joint name="${{name}}_joint" type="fixed">
+    <xacro:insert_block name="origin"/><parent link="${{parent}}"/><child link="${{name}}"/>
   </joint>
 </xacro:macro>
 <xacro:macro name="gripper" params="tf_prefix width:=${{2*0.04}}">
@@ -137,6 +146,10 @@ MODULES_AND_CALLS = {
         "a: {macro: camera, parent: deck, prefix: '', origin: {xyz: [1, 0, 0], rpy: [0, 0, 0.5]}}",
         '<xacro:camera parent_link="deck" xyz="1 0 0" rpy="0 0 0.5"/>',
     ),
+    "a link of its own that is a parent": (
+        "a: {macro: bracket, parent: deck, prefix: '', origin: [0, 0, 1], with: {name: mid}}",
+        '<xacro:bracket name="mid" parent="deck"><origin xyz="0 0 1"/></xacro:bracket>',
+    ),
     "an argument of the file": (
         "front: {macro: lidar, parent: deck, with: {color: [1, 0, 0, 1]}}",
         '<xacro:lidar prefix="front_" parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
@@ -150,7 +163,10 @@ MODULES_AND_CALLS = {
 
 @pytest.mark.parametrize(("module", "call"), MODULES_AND_CALLS.values(), ids=MODULES_AND_CALLS)
 def test_a_module_is_what_xacro_makes_of_the_call(module: str, call: str, cell: Cell, folder: Path):
-    parts = PARTS.replace('<link name="not_a_part_of_a_macro"/>', "").replace(ROOT, f'{ROOT} name="cell"')
+    parts = PARTS.replace('<link name="not_a_part_of_a_macro"/>', "")
+    if "bracket" not in module:  # which alone has the material
+        parts = parts.replace('<material name="steel"><color rgba="0.5 0.5 0.5 1"/></material>', "")
+    parts = parts.replace(ROOT, f'{ROOT} name="cell"')
     parts = parts.replace("0.1 0.1 0.1 1", "1.0 0.0 0.0 1.0") if "color" in module else parts
     (folder / "expected.xacro").write_text(parts.replace("</robot>", f'<link name="deck"/>{call}</robot>'), "utf-8")
     command = [sys.executable, "-c", "import xacro; xacro.main()", "expected.xacro", "-o", "expected.urdf"]

@@ -1,8 +1,10 @@
 """The program that expands one xacro file with the xacro package, with limits on memory and on what it may do.
 
 It reads a request from standard input, a line of JSON, and answers with one. With a `call` in the request, the result
-is what a macro of the file makes, and nothing else of it. In between it sends questions:
-`{"find": NAME}` for the folder of a package, or null, and `{"may_read": PATH}` for true or false.
+is what a macro of the file makes, with the materials of the file that it names, and nothing else of it.
+
+In between it sends questions: `{"find": NAME}` for the folder of a package, or null, and `{"may_read": PATH}` for true
+or false.
 
 Every element is marked with the index of its file and its index there, because the expanded text has no places, and
 so is every comment that follows an element on the same line, because what replaces a call ends on a line of its own.
@@ -183,6 +185,10 @@ class _Run:
         xacro.process_doc(document, mappings=arguments, verbosity=1)
         if aside:
             root.removeChild(aside)
+            used = {one.getAttribute("name") for one in root.getElementsByTagName("material")}
+            for material in [one for one in aside.childNodes if isinstance(one, Element) and one.tagName == "material"]:
+                if material.getAttribute("name") in used:
+                    root.insertBefore(material, root.firstChild)
         return root
 
     def _call_instead(self, document: Document, root: Element, call: _Call) -> Element:
