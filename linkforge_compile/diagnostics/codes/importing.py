@@ -66,7 +66,7 @@ MACRO_SETS_FIELD = Code(
 MACRO_PLACES_ITSELF = Code(
     "LF8038",
     _E,
-    "macro '{macro}' places itself, so 'origin' has no effect; leave it out, and set its parameters",
+    "macro '{macro}' places itself, so 'origin' has no effect; leave it out, and write in 'with' what the macro takes",
 )
 MACROS_ONLY = Code(
     "LF8039", _E, "'{path}' makes nothing, it declares macros; use one in a spec: {{use: {path}, macro: {macro}}}"
