@@ -60,7 +60,7 @@ MAY_IMPORT = {
     ),
     "view": (
         "source diagnostics checks formats core shape_files resources compare expand listing analysis pipeline "
-        "file_watcher"
+        "file_watcher units"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "

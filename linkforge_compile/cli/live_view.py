@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING
 from linkforge_compile.cli import FAULTY_SPEC, UsageError
 from linkforge_compile.cli.options import compile_spec, settings_of
 from linkforge_compile.cli.output import write_to_stdout
-from linkforge_compile.cli.reports import format_diagnostics, print_status, report, selection_of, write_to_stderr
+from linkforge_compile.cli.reports import (
+    format_diagnostics,
+    print_failure,
+    print_status,
+    report,
+    selection_of,
+    write_to_stderr,
+)
 from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.watching import Watched, repeat_on_changes
 from linkforge_compile.roots import is_file
@@ -42,11 +49,15 @@ def view_live(
     if not is_file(Path(spec)):
         report(compile_spec(spec, assignments, arguments).diagnostics, arguments)
         return FAULTY_SPEC
-    session = Session(Path(spec), settings_of(assignments, arguments), selection_of(arguments), view_of)
+    session = Session(
+        Path(spec), settings_of(assignments, arguments), selection_of(arguments), _FirstView(view_of, arguments)
+    )
+    # Before the server starts and the browser opens, as options may be wrong.
+    states = [session.renew()]
     server = _make_server(session, arguments.port or 0)
 
     def renew() -> Watched:
-        state = session.renew()
+        state = states.pop() if states else session.renew()
         _report(state, arguments)
         return Watched(state.watched, session.poll, pause=session.pause)
 
@@ -56,6 +67,25 @@ def view_live(
         repeat_on_changes("view", renew, arguments)
     finally:
         server.stop()
+
+
+class _FirstView:
+    """Returns how a robot is shown first; of one that was edited, and lacks what the options name, without these."""
+
+    def __init__(self, view_of: Callable[[Robot], SceneView], arguments: argparse.Namespace) -> None:
+        self._view_of, self._arguments = view_of, arguments
+        self._has_succeeded = False
+
+    def __call__(self, robot: Robot) -> SceneView:
+        try:
+            view = self._view_of(robot)
+        except UsageError as error:
+            if not self._has_succeeded:
+                raise
+            print_failure(f"linkforge view: {error}", self._arguments)
+            return {"panels": True}
+        self._has_succeeded = True
+        return view
 
 
 def _make_server(session: Session, port: int) -> ViewServer:

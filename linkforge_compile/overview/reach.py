@@ -74,13 +74,20 @@ def _next_span(robot: Robot, span: _Span, joint: Joint) -> _Span | None:
             return _Span(span.bound + math.hypot(*pose.xyz), AT_REST)
         case JointType.PRISMATIC if joint.axis:
             axis = pose.turn.turned(joint.axis.to_tuple())
+            if not all(map(math.isfinite, _range(robot, joint))):
+                return None
             ends = (tuple(a + end * b for a, b in zip(pose.xyz, axis, strict=True)) for end in _range(robot, joint))
             return _Span(span.bound + max(math.hypot(*end) for end in ends), AT_REST)
     return None
 
 
 def _range(robot: Robot, joint: Joint, followers: Sequence[str] = ()) -> tuple[float, float]:
-    """Return the positions between which a joint is, as one that follows another one is driven; 0 for no limit."""
+    """Return the positions between which a joint is, as one that follows another one is driven; 0 for no limit.
+
+    A continuous joint turns without an end.
+    """
+    if joint.type is JointType.CONTINUOUS:
+        return -math.inf, math.inf
     limits = joint.limits
     lower, upper = (limits.lower or 0.0, limits.upper or 0.0) if limits else (0.0, 0.0)
     mimic, leader = joint.mimic, robot.get_joint(joint.mimic.joint) if joint.mimic else None

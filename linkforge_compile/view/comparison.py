@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from linkforge_compile.compare import Difference, Kind
-from linkforge_compile.view.files import RobotFiles, collect_files
-from linkforge_compile.view.scene import Scene, SceneDifference, make_scene
+from linkforge_compile.view.files import MAX_ALL_BYTES, RobotFiles, collect_files
+from linkforge_compile.view.scene import Scene, SceneDifference, SceneLink, make_scene
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -26,8 +26,9 @@ def make_comparison(
     """
     found = [_scene_difference(one, before, after) for one in differences]
     # A file of the same name may have another content.
-    files_before, files = collect_files(before), collect_files(after)
+    files_before, files = (collect_files(robot, MAX_ALL_BYTES // 2) for robot in (before, after))
     scene_before, scene = make_scene(before, files_before), make_scene(after, files)
+    found += _other_contents(scene_before, scene, found)
     missing = [one for one in scene_before["missing"] if one not in scene["missing"]]
     both: Scene = {
         **scene,
@@ -43,6 +44,22 @@ def make_comparison(
         },
     }
     return both, files._replace(files={**files_before.files, **files.files})
+
+
+def _other_contents(before: Scene, after: Scene, found: Sequence[SceneDifference]) -> Iterator[SceneDifference]:
+    """Yield a difference for each link that is the same but for the content of its files."""
+    known, was = {one["link"] for one in found}, {link["name"]: link for link in before["links"]}
+    for link in after["links"]:
+        other = was.get(link["name"])
+        if other and link["name"] not in known and _files_of(other) != _files_of(link):
+            path = f"links/{link['name']}"
+            text = "the content of its meshes or textures differs"
+            yield {"kind": Kind.CHANGED, "path": path, "text": text, "link": link["name"], "is_whole": False}
+
+
+def _files_of(link: SceneLink) -> list[str | None]:
+    shapes = (*link["visuals"], *link["collisions"])
+    return [digest for shape in shapes for digest in (shape.get("file"), shape.get("texture"))]
 
 
 def _scene_difference(difference: Difference, before: Robot, after: Robot) -> SceneDifference:

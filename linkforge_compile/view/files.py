@@ -31,6 +31,9 @@ MAX_BYTES = 128 * 1024 * 1024
 MAX_ALL_BYTES = 256 * 1024 * 1024
 """The most that all files of a robot have together: browsers open no larger page."""
 
+MAX_NAMED = 1000
+"""The most files that the meshes and materials of a robot may name."""
+
 _DIGITS = 32
 
 
@@ -72,9 +75,9 @@ class _Wanted(NamedTuple):
     source: SourceRef | None
 
 
-def collect_files(robot: Robot) -> RobotFiles:
-    """Read the meshes and textures of a robot, and the files that they name."""
-    reader, digests, missing = _Reader(robot), {}, []
+def collect_files(robot: Robot, most: int | None = None) -> RobotFiles:
+    """Read the meshes and textures of a robot, and the files that they name; `most` bytes, None for MAX_ALL_BYTES."""
+    reader, digests, missing = _Reader(robot, MAX_ALL_BYTES if most is None else most), {}, []
     for resource, wanted in _wanted_files(robot).items():
         try:
             digests[resource] = reader.read(resource, wanted.kinds)
@@ -104,11 +107,12 @@ def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
 class _Reader:
     """Reads each file of a robot once."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, most: int) -> None:
         self._finder = ShapeFiles(robot)
         self._digests: dict[Path, str] = {}
         self._faults: list[tuple[str, str]] = []
-        self._left = MAX_ALL_BYTES
+        self._left = most
+        self._named = 0
         self.files: dict[str, File] = {}
         self.paths: list[Path] = []
 
@@ -161,6 +165,10 @@ class _Reader:
     def _named_in(self, path: Path, kind: str, content: bytes) -> Iterator[tuple[str, str]]:
         """Yield the files that a file names, by their names in it, with their digests."""
         for name, place, kinds in named_files(kind, content):
+            self._named += 1
+            if self._named > MAX_NAMED:
+                self._faults.append((name, f"its meshes and materials name more than {MAX_NAMED:,} files"))
+                return
             try:
                 yield name, self.read(place, kinds, path.parent)
             except UnreadableError as error:

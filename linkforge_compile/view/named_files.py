@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping
-from io import BytesIO
 from typing import NamedTuple
 from urllib.parse import unquote
 
@@ -17,6 +16,9 @@ TEXTURES = frozenset(("png", "jpg", "bmp", "gif", "webp", "tga"))
 _MATERIALS = frozenset(("mtl",))
 _BUFFERS = frozenset(("bin",))
 _WITH_URIS = ("dae", "gltf", "glb")
+
+_MAX_JSON = 16 * 1024 * 1024
+"""The longest JSON of a glTF in which names are looked for, as its values take twenty times as much memory."""
 
 KINDS: Mapping[str, str] = {"jpeg": "jpg"}
 """Endings that have another name as a kind."""
@@ -59,19 +61,53 @@ def _in_mtl(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
 def _in_collada(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
     from lxml import etree
 
-    # An `init_from` of a surface names an image, and not a file.
+    images = _Images()
+    parser = etree.XMLParser(target=images, resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True)
     try:
-        for _, image in etree.iterparse(
-            BytesIO(content), tag="{*}image", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True
-        ):
-            for path in ("{*}init_from", "{*}init_from/{*}ref"):
-                if name := (image.findtext(path) or "").strip():
-                    yield name, TEXTURES
+        etree.fromstring(content, parser)
     except etree.XMLSyntaxError:
         return
+    yield from ((name, TEXTURES) for name in images.names)
+
+
+class _Images:
+    """Collects what the images of a COLLADA document name, and keeps nothing else of it.
+
+    An `init_from` of a surface names an image, and not a file.
+    """
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+        self._tags: list[str] = []
+        self._text = ""
+
+    def start(self, tag: str | bytes, attrib: object) -> None:
+        self._tags.append(str(tag).rpartition("}")[2])
+        self._text = ""
+
+    def data(self, data: str | bytes) -> None:
+        if self._tags[-1] in _NAMING:
+            self._text += str(data)
+
+    def end(self, tag: str | bytes) -> None:
+        is_inside, name_of_tag = "image" in self._tags[-3:-1], self._tags.pop()
+        if is_inside and name_of_tag in _NAMING and (name := self._text.strip()):
+            self.names.append(name)
+        self._text = ""
+
+    def comment(self, text: str | bytes) -> None:
+        """Called for each comment."""
+
+    def close(self) -> None:
+        """Called at the end of the document."""
+
+
+_NAMING = ("init_from", "ref")
 
 
 def _in_gltf(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    if len(content) > _MAX_JSON:
+        return
     try:
         document = json.loads(content)
     except (ValueError, RecursionError):

@@ -72,6 +72,7 @@ WAIT = f"""<script>
 """The end of a page of which a picture is drawn: a browser draws it once the page is loaded, which an open document
 inside of the page delays until the robot is drawn."""
 
+_NOT_SHOWN = re.compile(r':CONSOLE[:(\d)]*\] "linkforge: (.* is not shown: .*)", source: ')
 _MESSAGE = re.compile(r':CONSOLE[:(\d)]*\] "(.*)", source: ')
 
 
@@ -94,7 +95,7 @@ def find_browser() -> Sequence[str]:
 
     """
     if words := os.environ.get(VARIABLE):
-        command = [words] if shutil.which(words) else shlex.split(words)
+        command = [words] if shutil.which(words) else _words_in(words)
         if command and shutil.which(command[0]):
             return command
         raise PictureError(f"there is no program '{words}', which {VARIABLE} names")
@@ -107,6 +108,12 @@ def find_browser() -> Sequence[str]:
     return [found]
 
 
+def _words_in(text: str) -> list[str]:
+    """Return the words of a command; Windows separates folders by what quotes elsewhere."""
+    is_posix = os.name != "nt"
+    return [word if is_posix else word.strip('"') for word in shlex.split(text, posix=is_posix)]
+
+
 def _usual_places() -> Iterator[str]:
     """Yield where macOS and Windows have browsers, which are not on the PATH there."""
     for applications in (Path("/Applications"), Path.home() / "Applications"):
@@ -115,8 +122,15 @@ def _usual_places() -> Iterator[str]:
         yield from (str(Path(programs) / place) for place in _WINDOWS)
 
 
-def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: float = TIME_LIMIT) -> bytes:
-    """Return a PNG of a page that ends with WAIT, once all that it shows is loaded.
+class Picture(NamedTuple):
+    """A PNG, and what the page did not show, each with the reason."""
+
+    png: bytes
+    not_shown: Sequence[str]
+
+
+def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: float = TIME_LIMIT) -> Picture:
+    """Draw a page that ends with WAIT, once all that it shows is loaded.
 
     Raises:
         PictureError: The browser cannot draw it, or not within the time limit [s].
@@ -132,7 +146,7 @@ def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: floa
         messages = log.read_text("utf-8", "replace")
         if f'"{_DONE}"' not in messages or not picture.is_file():
             raise PictureError(f"{Path(browser[0]).name} drew no picture: {_reason(messages)}")
-        return picture.read_bytes()
+        return Picture(picture.read_bytes(), list(_NOT_SHOWN.findall(messages)))
 
 
 def _folder_for(browser: Sequence[str]) -> Path | None:

@@ -42,11 +42,10 @@ def content_security_policy(page: str, *, has_server: bool) -> str:
     return "; ".join(
         (
             "default-src 'none'",
-            f"script-src {own}{scripts}".rstrip(),
-            f"style-src {own}'unsafe-inline'",
-            f"img-src {own}data: blob:",
+            f"script-src {scripts}".rstrip(),
+            "style-src 'unsafe-inline'",
+            "img-src data: blob:",
             f"connect-src {own}data: blob:",
-            "worker-src blob:",
             "base-uri 'none'",
             "form-action 'none'",
             *(["frame-ancestors 'none'"] if has_server else []),  # which is for headers alone

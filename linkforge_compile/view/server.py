@@ -44,10 +44,11 @@ _HOST = re.compile(r"(127\.0\.0\.1|localhost)(:\d{1,5})?", re.IGNORECASE)
 
 
 class Choice(NamedTuple):
-    """What a page sets: parameters as text by name, all others to their defaults, and the variant."""
+    """What a page changes: parameters by name, to a text or, with None, to their default, and the variant."""
 
-    values: Mapping[str, str]
-    variant: str | None
+    values: Mapping[str, str | None]
+    variant: str | None = None
+    has_variant: bool = False
 
 
 class RefusedError(Exception):
@@ -59,7 +60,7 @@ class RefusedError(Exception):
 
 
 def parse_choice(body: bytes) -> Choice:
-    """Read `{"parameters": {name: text}, "variant": text}`; null sets nothing. Raises RefusedError."""
+    """Read `{"parameters": {name: text or null}, "variant": text or null}`, each optional. Raises RefusedError."""
     try:
         document = json.loads(body)
     except (ValueError, RecursionError) as error:
@@ -73,7 +74,7 @@ def parse_choice(body: bytes) -> Choice:
         raise RefusedError("parameters must be an object with a text or null for each name")
     if variant is not None and not isinstance(variant, str):
         raise RefusedError("variant must be a text or null")
-    return Choice({name: text for name, text in parameters.items() if text is not None}, variant)
+    return Choice(parameters, variant, "variant" in document)
 
 
 class ViewServer(ThreadingHTTPServer):
@@ -146,7 +147,8 @@ class _Handler(BaseHTTPRequestHandler):
         except RefusedError as error:
             self._refuse(error.status, str(error))
             return
-        self.server.session.choose(choice.values, choice.variant)
+        session = self.server.session
+        session.choose(choice.values, *([choice.variant] if choice.has_variant else ()))
         self.send_response(HTTPStatus.NO_CONTENT)
         self.end_headers()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from enum import Enum
 from pathlib import Path
 from threading import Condition
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -27,6 +28,15 @@ PANEL = "<parameters>"
 
 ViewOf: TypeAlias = "Callable[[Robot], SceneView] | None"
 """Returns how a robot is shown first; None for without any options."""
+
+
+class Unchanged(Enum):
+    """Stands for a variant that a page leaves as it is, as None is no variant."""
+
+    UNCHANGED = "unchanged"
+
+
+UNCHANGED = Unchanged.UNCHANGED
 
 ALL = Selection()
 """What is reported without options: everything."""
@@ -150,15 +160,17 @@ class Session:
             self._news.notify_all()
         return state
 
-    def choose(self, values: Mapping[str, str], variant: str | None) -> None:
-        """Set parameters, all others to their defaults, and the variant; the next `renew` compiles with them."""
+    def choose(self, values: Mapping[str, str | None], variant: str | None | Unchanged = UNCHANGED) -> None:
+        """Set parameters, None to the default, and the variant, None for none; the next `renew` compiles with them."""
         with self._news:
             before = values_of(self._settings.parameters)
-            names = dict.fromkeys((*before, *values))
-            changed = [f"parameter {name}" for name in names if before.get(name) != values.get(name)]
-            changed += ["the variant"] if variant != self._settings.variant else []
-            parameters = {name: CliArgument(PANEL, name, text) for name, text in values.items()}
-            self._settings = self._settings._replace(parameters=parameters, variant=variant)
+            after = {name: text for name, text in {**before, **values}.items() if text is not None}
+            changed = [f"parameter {name}" for name in values if before.get(name) != after.get(name)]
+            if not isinstance(variant, Unchanged) and variant != self._settings.variant:
+                changed.append("the variant")
+                self._settings = self._settings._replace(variant=variant)
+            parameters = {name: CliArgument(PANEL, name, text) for name, text in after.items()}
+            self._settings = self._settings._replace(parameters=parameters)
             self._chosen |= dict.fromkeys(changed)
             self._news.notify_all()
 

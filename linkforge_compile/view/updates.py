@@ -11,6 +11,7 @@ from linkforge_compile.diagnostics.render_text import MOST_SHOWN, snippet
 from linkforge_compile.diagnostics.reports import count_losses
 from linkforge_compile.expand import CliArgument, arguments_from_text
 from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
+from linkforge_compile.units import number_text, parse_quantity
 from linkforge_compile.view.scene import Scene
 
 
@@ -92,6 +93,8 @@ def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None
     default = parameter.default if of_variant is None else of_variant
     if of_variant is None and "$(" in (default or ""):
         default = parameter.computed or default
+    if parameter.choices is not None:
+        value, default = (_as_choice(text, parameter.unit) for text in (value, default))
     return {
         "name": parameter.name,
         "type": parameter.type,
@@ -103,6 +106,12 @@ def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None
         "choices": parameter.choices,
         "description": parameter.description,
     }
+
+
+def _as_choice(text: str | None, unit: str | None) -> str | None:
+    """Return a text as the choices of a parameter are written: a quantity in its SI unit."""
+    quantity = parse_quantity(text) if text and unit else None
+    return f"{number_text(quantity.value)} {unit}" if quantity else text
 
 
 def problems_of(diagnostics: Iterable[Diagnostic]) -> list[Problem]:

@@ -129,6 +129,39 @@ def test_a_value_that_the_spec_refuses_is_a_problem_and_the_robot_stays(tab: Pag
     wait_until_hand_is_at(tab, 2)
 
 
+def test_a_texture_half_written_does_not_end_the_updates(tab: Page, spec: Path):
+    texture = spec.with_name("t.png")
+    texture.write_bytes(b"\x89PNG\r\n\x1a\n half of it")
+    skin = "{sphere: 5 cm, material: {name: skin, texture: t.png}}"
+    spec.write_text(SPEC.replace("{sphere: 5 cm}", skin))
+    expect(tab.locator(".problems")).to_contain_text("t.png is not shown")
+    spec.write_text(SPEC.replace("default: 1 m", "default: 2 m"))
+    wait_until_hand_is_at(tab, 2)
+
+
+def test_the_layers_of_the_options_are_those_of_the_first_robot(new_tab: Callable[[], Page], spec: Path):
+    spec.write_text(SPEC.replace("child: hand", "child: hnd"))
+    viewer = Viewer(spec.name, "--show", "collisions,frames", cwd=spec.parent)
+    tab = new_tab()
+    open_viewer(tab, viewer)
+    spec.write_text(SPEC)
+    wait_until_hand_is_at(tab, 1)
+    tab.locator("summary", has_text="Layers").click()
+    expect(tab.get_by_role("checkbox", name="frames")).to_be_checked()
+    expect(tab.get_by_role("checkbox", name="visuals")).not_to_be_checked()
+    viewer.close()
+
+
+def test_a_pose_that_an_edit_makes_impossible_keeps_the_viewer(new_tab: Callable[[], Page], spec: Path):
+    viewer = Viewer(spec.name, "--pose", "turn=80deg", cwd=spec.parent)
+    tab = new_tab()
+    open_viewer(tab, viewer)
+    assert tab.evaluate("window.linkforge.positions()") == {"turn": pytest.approx(1.396263)}
+    spec.write_text(SPEC.replace("upper: 90 deg", "upper: 45 deg").replace("default: 1 m", "default: 2 m"))
+    wait_until_hand_is_at(tab, 2)
+    viewer.close()
+
+
 def test_a_spec_with_errors_from_the_start_shows_its_robot_once_it_is_corrected(
     new_tab: Callable[[], Page], spec: Path
 ):

@@ -189,3 +189,29 @@ def test_a_robot_of_300_links_is_up_within_three_seconds(page: Path, new_tab: Ca
     tab.goto(file.as_uri())
     tab.evaluate("linkforge.ready")
     assert time.perf_counter() - start < 3
+
+
+def test_a_chain_of_thousands_of_links_is_shown(page: Path, new_tab: Callable[[], Any], tmp_path: Path):
+    links = "".join(f"  l{n}: \n" for n in range(9000))
+    joints = "".join(f"  j{n}: {{type: fixed, parent: l{n - 1}, child: l{n}}}\n" for n in range(1, 9000))
+    text = f"linkforge: 1\nname: chain\nlinks:\n{links}joints:\n{joints}"
+    robot = compile_text(text, name=str(tmp_path / "r.robot.yaml")).result()
+    file = tmp_path / "robot.html"
+    file.write_text(html_of(make_scene(robot, RobotFiles()), RobotFiles()), "utf-8")
+    tab = new_tab()
+    tab.goto(file.as_uri())
+    tab.evaluate("linkforge.ready")
+    tab.evaluate("linkforge.select('l8999')")
+    assert tab.locator("[role=treeitem][aria-selected=true]").get_attribute("data-link") == "l8999"
+
+
+def test_a_browser_without_webgl_says_so(page: Path, chromium: Any, tmp_path: Path):
+    file = tmp_path / "robot.html"
+    file.write_text(html_of(SAMPLE, RobotFiles()), "utf-8")
+    tab = chromium.new_page()
+    tab.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
+    tab.goto(file.as_uri())
+    notice = tab.locator("#starting").text_content()
+    tab.close()
+    assert "It needs JavaScript and WebGL 2" in notice
+    assert "It did not start: " in notice

@@ -282,9 +282,9 @@ def test_an_address_with_other_robots_names_is_no_fault(show: Open):
 
 def test_missing_meshes_are_listed(show: Open):
     tab = show()
-    tab.get_by_text("1 warning").click()
+    tab.locator(".problems > summary").click()
     problems = tab.locator(".problems")
-    expect(problems).to_contain_text("1 file missing, drawn as boxes: the package 'sample' is not found")
+    expect(problems).to_contain_text("1 file not shown: the package 'sample' is not found")
     expect(problems).to_contain_text("package://sample/palm.stl of gripper/palm at sample.robot.yaml:21")
 
 
@@ -381,6 +381,29 @@ def test_widgets_of_parameters_compile_the_spec_again(live: Any):
     live.get_by_role("combobox", name="tool").select_option("hook")
     expect(live.get_by_title("set tool to its default")).to_be_visible()
     expect(live.get_by_role("checkbox", name="is_heavy")).to_be_checked()
+
+
+def test_what_is_being_typed_stays_as_other_updates_arrive(live: Any, spec: Path):
+    number = live.get_by_role("textbox", name="reach")
+    number.fill("1.7 m")
+    spec.write_text(SPEC.replace("upper: 1 rad", "upper: 0.5 rad"))
+    expect(live.get_by_label("position of lift", exact=True)).to_have_attribute("max", "0.5")
+    expect(number).to_have_value("1.7 m")
+    number.press("Enter")
+    live.evaluate("window.linkforge.select('arm')")
+    expect(live.get_by_role("region", name="selected link")).to_contain_text("box 0.1 × 0.1 × 1.7 m")
+
+
+def test_a_change_is_sent_although_an_update_arrives_before(live: Any, spec: Path):
+    live.evaluate("window.linkforge.select('arm')")
+    slider = live.get_by_label("reach, slider")
+    move = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
+    for value in (1.1, 1.2, 1.3, 1.4):
+        slider.evaluate(move, value)
+        spec.write_text(SPEC.replace("upper: 1 rad", f"upper: {value} rad"))
+        live.wait_for_timeout(150)
+    expect(live.get_by_role("region", name="selected link")).to_contain_text("box 0.1 × 0.1 × 1.4 m")
+    expect(live.get_by_role("textbox", name="reach")).to_have_value("1.4 m")
 
 
 def test_a_variant_is_chosen(live: Any):

@@ -65,7 +65,7 @@ def middle_of(image: np.ndarray, channel: int) -> tuple[float, float]:
 
 def test_a_red_box_is_left_of_a_blue_one(page_of, browser: Sequence[str]):
     html = page_of()
-    first = draw_picture(html, SIZE, browser)
+    first = draw_picture(html, SIZE, browser).png
     image = pixels(first)
     assert image.shape == (SIZE.height, SIZE.width, 3)
     red, blue = middle_of(image, 0), middle_of(image, 2)
@@ -73,17 +73,17 @@ def test_a_red_box_is_left_of_a_blue_one(page_of, browser: Sequence[str]):
     assert red[0] < SIZE.width / 2 < blue[0]
     assert red[0] + blue[0] == pytest.approx(SIZE.width, abs=4)
     assert red[1] == pytest.approx(SIZE.height / 2, abs=4)
-    assert draw_picture(html, SIZE, browser) == first
+    assert draw_picture(html, SIZE, browser).png == first
 
 
 def test_the_camera_and_the_pose_have_effect(page_of, browser: Sequence[str]):
-    behind = pixels(draw_picture(page_of(camera={"azimuth": 180, "elevation": 0}), SIZE, browser))
+    behind = pixels(draw_picture(page_of(camera={"azimuth": 180, "elevation": 0}), SIZE, browser).png)
     assert middle_of(behind, 0)[0] > middle_of(behind, 2)[0]
-    turned = pixels(draw_picture(page_of(pose={"turn": np.pi}), SIZE, browser))
+    turned = pixels(draw_picture(page_of(pose={"turn": np.pi}), SIZE, browser).png)
     assert middle_of(turned, 2)[0] < SIZE.width / 2
-    far = pixels(draw_picture(page_of(camera={"azimuth": 0, "elevation": 0, "distance": 20}), SIZE, browser))
+    far = pixels(draw_picture(page_of(camera={"azimuth": 0, "elevation": 0, "distance": 20}), SIZE, browser).png)
     assert abs(middle_of(far, 0)[0] - SIZE.width / 2) < 40
-    above = pixels(draw_picture(page_of(camera={"azimuth": -90, "elevation": 60}), SIZE, browser))
+    above = pixels(draw_picture(page_of(camera={"azimuth": -90, "elevation": 60}), SIZE, browser).png)
     assert middle_of(above, 0)[1] > middle_of(above, 2)[1]
 
 

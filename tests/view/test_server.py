@@ -100,7 +100,7 @@ def test_the_page_holds_the_scene_and_runs_only_its_own_script(server: ViewServe
     assert json.loads(page.body.decode().partition('json">')[2].removesuffix("</script>"))["live"] is True
     policy = page.headers["Content-Security-Policy"]
     # echo -n 'console.log(1)' | openssl dgst -sha256 -binary | base64
-    assert "script-src 'self' 'sha256-CihokcEcBW4atb/CW/XWsvWwbTjqwQlE9nj9ii5ww5M=';" in policy
+    assert "script-src 'sha256-CihokcEcBW4atb/CW/XWsvWwbTjqwQlE9nj9ii5ww5M=';" in policy
     assert "default-src 'none'" in policy
     assert "unsafe-eval" not in policy
 

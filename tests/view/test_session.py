@@ -135,8 +135,12 @@ def test_a_variant_replaces_defaults_and_a_chosen_value_has_precedence(session: 
     state = session.renew()
     assert height(state) == 1.5
     assert state.update_since(0)["settings"]["parameters"][0]["default"] == "1.5 m"
-    session.choose({"reach": "1 m"}, "long")
+    session.choose({"reach": "1 m"})
     assert height(session.renew()) == 1
+    assert session.state.settings.variant == "long"
+    session.choose({}, None)
+    assert session.poll() == ("parameter reach", "the variant")
+    assert session.renew().settings.variant is None
 
 
 def test_values_of_the_command_line_are_those_of_the_widgets(spec: Path):
@@ -163,6 +167,26 @@ def test_choices_during_a_compile_are_compiled_as_one(session: Session):
     assert session.poll() == ("parameter reach", "parameter tool")
     assert height(session.renew()) == 1.4
     assert session.poll() == ()
+
+
+def test_two_pages_change_one_parameter_each(session: Session):
+    session.choose({"reach": "1 m"})
+    session.choose({"tool": "probe"})
+    settings = session.renew().update_since(0)["settings"]
+    assert [one["value"] for one in settings["parameters"]] == ["1 m", "probe", None]
+    session.choose({"reach": None})
+    assert [one["value"] for one in session.renew().update_since(0)["settings"]["parameters"]] == [None, "probe", None]
+
+
+def test_choices_with_a_unit_are_written_as_the_value_is(tmp_path: Path):
+    spec = tmp_path / "arm.robot.yaml"
+    spec.write_text(ARM.replace("half:", "grip: {type: length, enum: [10 cm, 0.2 m], default: 20 cm}\n  half:"))
+    session = Session(spec, Settings([]))
+    by_name = {one["name"]: one for one in session.renew().update_since(0)["settings"]["parameters"]}
+    assert (by_name["grip"]["choices"], by_name["grip"]["default"]) == ([0.1, 0.2], "0.2 m")
+    session.choose({"grip": "10 cm"})
+    by_name = {one["name"]: one for one in session.renew().update_since(0)["settings"]["parameters"]}
+    assert by_name["grip"]["value"] == "0.1 m"
     assert session.state.version == 2
 
 

@@ -163,6 +163,19 @@ def test_a_texture_of_the_robot_is_seen_on_a_box(show_link: Callable[..., Any]):
     assert max(green, blue) < 60
 
 
+def test_a_texture_that_cannot_be_read_leaves_the_shape_and_is_listed(show_link: Callable[..., Any]):
+    link = "{visual: {box: [1, 1, 1], material: {name: skin, texture: skin.png}}}"
+    tab = show_link(link, {"skin.png": picture((255, 0, 0))[:20]}, {**FRONT, "panels": True})
+    assert tab.locator(".problems").text_content().count("skin.png is not shown: it cannot be read") == 1
+    low, high = extent(tab)
+    assert np.allclose(high - low, 1)
+
+
+def test_a_mesh_that_cannot_be_read_is_listed(show_link: Callable[..., Any]):
+    tab = show_link("{visual: {mesh: m.gltf}}", {"m.gltf": b"{}"}, {**FRONT, "panels": True})
+    assert "m.gltf is not shown: " in tab.locator(".problems").text_content()
+
+
 def test_a_texture_that_is_missing_leaves_the_mesh(show_link: Callable[..., Any]):
     files = {"m.obj": OBJ.encode(), "m.mtl": TEXTURED}
     assert min(middle(show_link("{visual: {mesh: m.obj}}", files))) > 150

@@ -215,7 +215,10 @@ def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Nam
         browser = find_browser()
         html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files, last=WAIT)
         with progress_after(f"drawing with {Path(browser[0]).name}", arguments):
-            return draw_picture(html, arguments.size, browser)
+            picture = draw_picture(html, arguments.size, browser)
+        for fault in picture.not_shown:
+            print_status(fault, arguments)
+        return picture.png
     except (NoPageError, PictureError) as error:
         raise UsageError(str(error)) from error
 

@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import type { Shapes } from "./geometry";
 import { type Positions } from "./kinematics";
+import { FINISH } from "./meshes";
 import { Robot } from "./robot";
 import type { Comparison, DifferenceKind, Scene } from "./scene";
 import type { State } from "./state";
@@ -30,8 +31,8 @@ export class Compared {
   static async make(scene: Scene, comparison: Comparison, after: Robot, shapes: Shapes): Promise<Compared> {
     const before = await Robot.make({ ...comparison.before, files: scene.files }, shapes);
     const made = new Compared(comparison, after, before);
-    const solid = new Map(Object.entries(COLORS).map(([kind, color]) => [kind, new THREE.MeshStandardMaterial({ color })]));
-    const same = new THREE.MeshStandardMaterial({ color: SAME });
+    const solid = new Map(Object.entries(COLORS).map(([kind, color]) => [kind, new THREE.MeshStandardMaterial({ ...FINISH, color })]));
+    const same = new THREE.MeshStandardMaterial({ ...FINISH, color: SAME });
     after.paint((link) => solid.get(comparison.kinds[link] ?? "") ?? same);
     const [gone, was] = [makeGhost(COLORS.removed), makeGhost(BEFORE)];
     before.paint((link) => (made.kind(link) === "removed" ? gone : was));
@@ -80,5 +81,6 @@ export class Compared {
 
 /** Make a material that is seen through what is before it. */
 function makeGhost(color: number): THREE.Material {
-  return new THREE.MeshStandardMaterial({ color, opacity: 0.3, transparent: true, depthTest: false, depthWrite: false });
+  const through = { opacity: 0.3, transparent: true, depthTest: false, depthWrite: false };
+  return new THREE.MeshStandardMaterial({ ...FINISH, color, ...through });
 }

@@ -6,7 +6,7 @@ import type { SceneFile } from "./scene";
 /** One white pixel, for a texture that is missing. */
 const WHITE = "data:image/gif;base64,R0lGODlhAQABAIAAAP///////yH5BAAAAAAALAAAAAABAAEAAAICRAEAOw==";
 
-const MEDIA: Readonly<Record<string, string>> = { jpg: "image/jpeg", svg: "image/svg+xml" };
+const MEDIA: Readonly<Record<string, string>> = { jpg: "image/jpeg" };
 
 export class Files {
   constructor(private readonly files: Readonly<Record<string, SceneFile>>) {}
@@ -14,6 +14,10 @@ export class Files {
   /** Return the ending of a file in lower case. */
   kind(digest: string): string {
     return this.files[digest]?.kind ?? "";
+  }
+
+  name(digest: string): string {
+    return this.files[digest]?.name ?? digest;
   }
 
   /** Return the files that a file names, those that they name included: digests by name. */
@@ -32,8 +36,9 @@ export class Files {
 
   async bytes(digest: string): Promise<ArrayBuffer> {
     const data = this.files[digest]?.data;
-    const answer = await fetch(data === undefined ? `files/${digest}` : `data:;base64,${data}`);
-    if (!answer.ok) throw new Error(`the server answers ${answer.status} for ${this.files[digest]?.name ?? digest}`);
+    if (data !== undefined) return decode(data);
+    const answer = await fetch(`files/${digest}`);
+    if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
     return answer.arrayBuffer();
   }
 
@@ -64,6 +69,14 @@ export class Files {
     const kind = this.kind(digest);
     return URL.createObjectURL(new Blob([await this.bytes(digest)], { type: MEDIA[kind] ?? `image/${kind}` }));
   }
+}
+
+/** A loop: `Uint8Array.from` takes ten times as long, and browsers limit addresses of data. */
+function decode(base64: string): ArrayBuffer {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let index = 0; index < text.length; index++) bytes[index] = text.charCodeAt(index);
+  return bytes.buffer;
 }
 
 /** Return a name of a file as loaders may write it, too. */

@@ -38,7 +38,7 @@ function fragmentOf(state: State): string {
     if (position !== start) stored.set(JOINT + name, String(Number(position.toFixed(6))));
   }
   const layers = LAYERS.filter((layer) => state.layers.has(layer)).join(",");
-  if (layers !== "visuals,grid") stored.set("layers", layers);
+  if (layers !== LAYERS.filter((layer) => state.firstLayers.has(layer)).join(",")) stored.set("layers", layers);
   if (state.selected !== null) stored.set("link", state.selected);
   for (const link of state.hidden) stored.append("hidden", link);
   if (!state.isInDegrees) stored.set("unit", "rad");

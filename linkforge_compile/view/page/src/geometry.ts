@@ -18,6 +18,8 @@ const MISSING_SIZE = 0.1;
 export class Shapes {
   /** The files of the scene that is being made. */
   files = new Files({});
+  /** Why files are not shown, by digest. */
+  readonly faults = new Map<string, string>();
   private readonly geometries = new Cache<THREE.BufferGeometry>((geometry) => geometry.dispose());
   private readonly materials = new Cache<Promise<THREE.Material>>((made) => void made.then(disposeMaterial));
   private readonly meshes = new Cache<Promise<THREE.Group | null>>((read) => void read.then((mesh) => mesh && disposeMesh(mesh)));
@@ -81,9 +83,15 @@ export class Shapes {
     try {
       return await readMesh(this.files, digest);
     } catch (error) {
-      console.warn(`a mesh cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+      this.note(digest, error instanceof Error ? error.message : "it cannot be read");
       return null;
     }
+  }
+
+  private note(digest: string, reason: string): void {
+    const fault = `${this.files.name(digest)} is not shown: ${reason}`;
+    this.faults.set(digest, fault);
+    console.warn(`linkforge: ${fault}`);
   }
 
   private material({ color, texture }: Shape, role: Role): Promise<THREE.Material> {
@@ -98,7 +106,16 @@ export class Shapes {
     });
   }
 
-  private texture(digest: string): Promise<THREE.Texture> {
+  private async texture(digest: string): Promise<THREE.Texture | null> {
+    try {
+      return await this.readTexture(digest);
+    } catch {
+      this.note(digest, "it cannot be read");
+      return null;
+    }
+  }
+
+  private readTexture(digest: string): Promise<THREE.Texture> {
     const name = `texture.${this.files.kind(digest)}`;
     return this.files.lend(new Map([[name, digest]]), async (manager) => {
       const loader = (manager.getHandler(name) ?? new THREE.TextureLoader(manager)) as THREE.TextureLoader;

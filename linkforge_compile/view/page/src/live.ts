@@ -1,9 +1,10 @@
 /** Updates from the server of `linkforge view`, and settings sent to it. Addresses are relative to the page's. */
 import type { State, Update } from "./state";
 
+/** What the user changed: a text or null, the default, for each parameter, and the variant if that was changed. */
 export interface SettingsRequest {
-  parameters: Record<string, string>;
-  variant: string | null;
+  parameters: Record<string, string | null>;
+  variant?: string | null;
 }
 
 /** Show each update of the server, and whether the server can be reached. */

@@ -64,4 +64,11 @@ function start(scene: Scene): Console {
 }
 
 const scene = JSON.parse(document.getElementById("scene")!.textContent) as Scene | null;
-if (scene) window.linkforge = start(scene);
+const notice = document.getElementById("starting")!;
+try {
+  if (scene) window.linkforge = start(scene);
+  notice.remove();
+} catch (error) {
+  notice.append(` It did not start: ${error instanceof Error ? error.message : String(error)}`);
+  throw error;
+}

@@ -6,7 +6,7 @@ import { Grid } from "./grid";
 import { Labels } from "./labels";
 import { listenToPointer } from "./pointer";
 import { Robot } from "./robot";
-import type { Change, State } from "./state";
+import { isEmpty, type Change, type State } from "./state";
 import { Viewport } from "./viewport";
 
 export class Picture {
@@ -45,7 +45,8 @@ export class Picture {
   }
 
   private follow(change: Change): void {
-    if (change === "scene") this.ready = this.ready.then(() => this.load());
+    // A scene that could not be shown does not keep the next one from being shown.
+    if (change === "scene") this.ready = this.ready.catch(() => undefined).then(() => this.load());
     else this.update(change);
   }
 
@@ -56,16 +57,18 @@ export class Picture {
     const robot = await Robot.make(scene, this.shapes);
     const { comparison } = scene;
     this.compared = comparison ? await Compared.make(scene, comparison, robot, this.shapes) : null;
-    const isFirst = this.robot === null;
+    const isFirst = !this.robot || isEmpty(this.robot.scene);
     this.robot?.select(null);
     this.robot?.root.removeFromParent();
     this.robot = robot;
     this.hovered = null;
     this.shapes.sweep();
+    this.state.reportUnreadable([...this.shapes.faults].filter(([file]) => file in scene.files).map(([, fault]) => fault));
     this.viewport.scene.add(robot.root);
     if (this.compared) this.viewport.scene.add(this.compared.root);
     for (const change of ["positions", "layers", "selection"] as const) this.update(change);
     this.grid.layUnder(robot.extent(), robot.size);
+    this.viewport.measure(robot.extent());
     if (!isFirst) return this.viewport.frame();
     this.viewport.fit(robot.extent(), scene.view.camera);
     this.viewport.draw();

@@ -6,6 +6,9 @@ const STILL = 4;
 /** How often a movement is followed [ms]; to find what is under the pointer is slow with large meshes. */
 const PAUSE = 60;
 
+/** How near to an edge of a missing mesh's box the pointer hits it, as a share of the box. */
+const NEAR_LINE = 0.02;
+
 export interface Pointing {
   click(ray: Raycaster): void;
   /** null: the pointer is not over the picture. */
@@ -18,6 +21,7 @@ export function listenToPointer(canvas: HTMLElement, camera: Camera, pointing: P
   const rayAt = ({ clientX, clientY }: PointerEvent): Raycaster => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const ray = new Raycaster();
+    ray.params.Line.threshold = NEAR_LINE;
     const place = new Vector2(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2);
     ray.setFromCamera(place, camera);
     return ray;

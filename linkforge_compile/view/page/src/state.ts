@@ -58,8 +58,11 @@ export class State {
   /** Why no updates arrive; "" while they do. */
   connection = "";
   problems: readonly Problem[] = [];
+  /** Why files of the scene are not shown. */
+  unreadable: readonly string[] = [];
   settings: Settings = { parameters: [], variants: [], variant: null };
   #scene: Scene;
+  #start: Record<string, number>;
   #set: Record<string, number>;
   #positions: Positions;
   #layers: ReadonlySet<Layer>;
@@ -75,10 +78,10 @@ export class State {
   constructor(scene: Scene) {
     this.#scene = scene;
     this.#index();
-    this.#set = startPositions(scene);
+    this.#start = startPositions(scene);
+    this.#set = { ...this.#start };
     this.#positions = jointPositions(scene.joints, this.#set);
-    const named = LAYERS.filter((layer) => scene.view.layers?.includes(layer));
-    this.#layers = new Set(scene.view.layers ? named : FIRST_LAYERS);
+    this.#layers = this.firstLayers;
   }
 
   /** Call the listener after each change. */
@@ -142,7 +145,13 @@ export class State {
 
   /** Where the joints are when the page opens. */
   get start(): Positions {
-    return startPositions(this.#scene);
+    return this.#start;
+  }
+
+  /** Which layers are on when the page opens. */
+  get firstLayers(): ReadonlySet<Layer> {
+    const { layers } = this.#scene.view;
+    return new Set(layers ? LAYERS.filter((layer) => layers.includes(layer)) : FIRST_LAYERS);
   }
 
   setLayer(layer: Layer, isShown: boolean): void {
@@ -193,12 +202,19 @@ export class State {
     this.#tell("live");
   }
 
+  reportUnreadable(unreadable: readonly string[]): void {
+    this.unreadable = unreadable;
+    this.#tell("live");
+  }
+
   /** Show another robot; positions, layers and the selection stay as far as their names do. */
   setScene(scene: Scene): void {
     const before = this.#set;
+    const isFirst = isEmpty(this.#scene);
     this.#scene = scene;
     this.#index();
-    this.#set = startPositions(scene);
+    this.#start = startPositions(scene);
+    this.#set = { ...this.#start };
     for (const name of Object.keys(this.#set)) {
       const joint = this.#joints.get(name);
       const position = before[name];
@@ -208,6 +224,9 @@ export class State {
     this.#hidden = new Set([...this.#hidden].filter((name) => this.#links.has(name)));
     this.#selected = this.link(this.#selected)?.name ?? null;
     this.#tell("scene");
+    if (!isFirst || !scene.view.layers) return;
+    this.#layers = this.firstLayers;
+    this.#tell("layers");
   }
 
   #index(): void {
@@ -218,6 +237,11 @@ export class State {
   #tell(change: Change): void {
     for (const listener of this.#listeners) listener(change);
   }
+}
+
+/** Whether a scene is what a live viewer shows before the first robot. */
+export function isEmpty(scene: Scene): boolean {
+  return scene.live && !scene.version;
 }
 
 function startPositions(scene: Scene): Record<string, number> {

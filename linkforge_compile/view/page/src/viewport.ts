@@ -16,6 +16,7 @@ export class Viewport {
   private readonly controls: OrbitControls;
   private waiting = 0;
   private radius = 1;
+  private box = new THREE.Box3();
   /** Look again as at last, after a change of size; until a user moves the camera. */
   private refit: (() => void) | null = null;
 
@@ -29,6 +30,7 @@ export class Viewport {
     this.controls.addEventListener("change", () => this.moved());
     this.controls.addEventListener("start", () => (this.refit = null));
     this.addLights();
+    this.renderer.domElement.addEventListener("webglcontextrestored", () => this.redraw());
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
   }
@@ -52,9 +54,16 @@ export class Viewport {
     this.drawn();
   }
 
+  /** Take the size of what is shown, and stay where the camera is. */
+  measure(box: THREE.Box3): void {
+    this.box = box;
+    this.radius = box.isEmpty() ? 0.5 : Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-3);
+    this.moved();
+  }
+
   /** Look at all of a box, from where `camera` says. */
   fit(box: THREE.Box3, camera: Camera = FIRST_VIEW): void {
-    this.radius = box.isEmpty() ? 0.5 : Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-3);
+    this.measure(box);
     const middle = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3());
     const target = camera.target ? new THREE.Vector3(...camera.target) : middle;
     const way = wayTo(camera);
@@ -63,7 +72,7 @@ export class Viewport {
     this.controls.target.copy(target);
     this.controls.update();
     this.moved();
-    this.refit = () => this.fit(box, camera);
+    this.refit = () => this.fit(this.box, camera);
   }
 
   /** Return from how far all corners of a box are in the picture, with a margin. */

@@ -38,3 +38,8 @@ function hueOf(name: string): number {
   for (const character of name) hash = (hash * 31 + (character.codePointAt(0) ?? 0)) % 9973;
   return (hash * 137) % 360; // Near names get far hues.
 }
+
+/** Return such as "1 link" or "2 links". */
+export function counted(count: number, what: string): string {
+  return `${count} ${what}${count === 1 ? "" : "s"}`;
+}

@@ -4,7 +4,7 @@ import { listen } from "../live";
 import type { State } from "../state";
 import { makeDetails } from "./details";
 import { makeChanges } from "./changes";
-import { make, makeButton } from "./elements";
+import { counted, make, makeButton } from "./elements";
 import { makeJoints } from "./joints";
 import { listenToKeys, makeHelp, makeKeys } from "./keys";
 import { makeLayers } from "./layers";
@@ -46,7 +46,7 @@ function makeBar(state: State, search: HTMLInputElement, actions: Actions, help:
     const { links, joints } = state.scene;
     name.replaceChildren(state.scene.name);
     const moving = joints.filter(({ type, mimic }) => type !== "fixed" && !mimic).length;
-    figures.replaceChildren(`${links.length} links · ${moving} movable joints`);
+    figures.replaceChildren(`${counted(links.length, "link")} · ${counted(moving, "movable joint")}`);
     document.title = state.scene.name;
   };
   state.listen((change) => change === "scene" && show());

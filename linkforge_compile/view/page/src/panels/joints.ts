@@ -10,8 +10,13 @@ export function makeJoints(state: State): HTMLElement {
   const list = make("div", { className: "joints" });
   let rows: JointRow[] = [];
   const rebuild = (): void => {
-    rows = state.scene.joints.filter(isMovable).map((joint) => new JointRow(joint, state));
-    list.replaceChildren(...rows.map((row) => row.element));
+    // The row of a joint that is as before stays, with the pointer that drags its slider.
+    const known = new Map(rows.map((row) => [JSON.stringify(row.joint), row]));
+    const made = state.scene.joints.filter(isMovable).map((joint) => known.get(JSON.stringify(joint)) ?? new JointRow(joint, state));
+    const isOther = made.length !== rows.length || made.some((row, index) => row !== rows[index]);
+    rows = made;
+    if (isOther) list.replaceChildren(...rows.map((row) => row.element));
+    show();
     filter();
   };
   const show = (): void => rows.forEach((row) => row.show());

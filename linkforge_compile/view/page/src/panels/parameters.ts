@@ -5,6 +5,7 @@ import { make, makeButton, makeSection } from "./elements";
 import { brief } from "./numbers";
 
 const DELAY = 250; // [ms] without another change until the settings are sent
+const PATIENCE = 5000; // [ms] until a value that was sent gives way to that of an update, as of another page
 
 export function makeParameters(state: State): HTMLElement {
   const section = makeSection("Parameters");
@@ -15,8 +16,10 @@ export function makeParameters(state: State): HTMLElement {
 }
 
 class ParameterPanel {
-  /** What the user set, until an update states it. */
+  /** What the user set and is not sent yet. */
   private readonly changed = new Map<string, string | null>();
+  /** What was sent, and when, until an update states it. */
+  private readonly sent = new Map<string, { text: string | null; at: number }>();
   private variant: string | null | undefined;
   private timer = 0;
   private shownKey = "";
@@ -33,13 +36,17 @@ class ParameterPanel {
     const key = JSON.stringify([variants, parameters.map(({ value: _, ...declared }) => declared)]);
     if (key !== this.shownKey) this.rebuild();
     this.shownKey = key;
-    this.changed.clear();
-    this.variant = undefined;
-    parameters.forEach((parameter, index) => this.widgets[index]?.show(parameter, this.problemOf(parameter.name)));
+    parameters.forEach((parameter, index) => {
+      const { name, value } = parameter;
+      const sent = this.sent.get(name);
+      if (sent && (sent.text === value || Date.now() - sent.at > PATIENCE)) this.sent.delete(name);
+      const isOwn = this.changed.has(name) || this.sent.has(name);
+      this.widgets[index]?.show(parameter, this.problemOf(name), isOwn);
+    });
     const select = this.section.querySelector<HTMLSelectElement>("select[name=variant]");
     const variant = this.state.settings.variant ?? "";
     if (select && ![...select.options].some(({ value }) => value === variant)) select.add(new Option(variant));
-    if (select) select.value = variant;
+    if (select && this.variant === undefined) select.value = variant;
   }
 
   private rebuild(): void {
@@ -75,13 +82,11 @@ class ParameterPanel {
   }
 
   private send(): void {
-    const { parameters, variant } = this.state.settings;
-    const texts = parameters.flatMap(({ name, value }) => {
-      const text = this.changed.has(name) ? this.changed.get(name) : value;
-      return text === null || text === undefined ? [] : [[name, text] as const];
-    });
-    const chosen = this.variant === undefined ? variant : this.variant;
-    void sendSettings(this.state, { parameters: Object.fromEntries(texts), variant: chosen });
+    for (const [name, text] of this.changed) this.sent.set(name, { text, at: Date.now() });
+    const request = { parameters: Object.fromEntries(this.changed) };
+    void sendSettings(this.state, this.variant === undefined ? request : { ...request, variant: this.variant });
+    this.changed.clear();
+    this.variant = undefined;
   }
 }
 
@@ -107,14 +112,15 @@ class Widget {
     this.element.dataset["parameter"] = name;
   }
 
-  /** Show the value, and the message of a faulty one. */
-  show(parameter: Parameter, fault: string): void {
+  /** Show the value, unless the user's own is under way, and the message of a faulty one. */
+  show(parameter: Parameter, fault: string, isOwn: boolean): void {
     const text = parameter.value ?? parameter.default ?? "";
-    if (this.input.type === "checkbox") (this.input as HTMLInputElement).checked = text === "true";
-    else if (document.activeElement !== this.input || fault === "") this.input.value = text;
+    const isTyped = this.input.type === "text" && document.activeElement === this.input;
+    if (!isOwn && this.input.type === "checkbox") (this.input as HTMLInputElement).checked = text === "true";
+    else if (!isOwn && !isTyped) this.input.value = text;
     const number = inUnit(text, parameter.unit);
     if (this.slider) this.slider.hidden = Number.isNaN(number);
-    if (this.slider && document.activeElement !== this.slider) this.slider.value = String(number);
+    if (this.slider && !isOwn && document.activeElement !== this.slider) this.slider.value = String(number);
     this.reset.style.visibility = parameter.value === null || parameter.value === parameter.default ? "hidden" : "";
     this.fault.replaceChildren(fault);
     this.fault.hidden = fault === "";
@@ -144,11 +150,13 @@ function makeInput(parameter: Parameter, set: (text: string) => void): HTMLInput
 }
 
 function makeSlider(parameter: Parameter, set: (text: string) => void): HTMLInputElement {
-  const { name, minimum, maximum } = parameter;
+  const { name } = parameter;
+  const [minimum, maximum] = [Number(parameter.minimum), Number(parameter.maximum)];
   const isWhole = parameter.type === "integer";
   const range = { min: String(minimum), max: String(maximum), step: isWhole ? "1" : "any" };
   const slider = make("input", { type: "range", ariaLabel: `${name}, slider`, ...range });
-  slider.oninput = () => set(withUnit(Number(slider.valueAsNumber.toPrecision(4)), parameter.unit));
+  const short = (number: number): number => Math.min(Math.max(Number(number.toPrecision(4)), minimum), maximum);
+  slider.oninput = () => set(withUnit(isWhole ? slider.valueAsNumber : short(slider.valueAsNumber), parameter.unit));
   return slider;
 }
 

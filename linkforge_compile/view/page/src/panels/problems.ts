@@ -1,29 +1,35 @@
 /** What is wrong with the spec, its meshes or the connection, over the picture. */
 import type { MissingFile } from "../scene";
 import type { Problem, State } from "../state";
-import { make } from "./elements";
+import { counted, make } from "./elements";
 import { shownPlace } from "./numbers";
 
 export function makeProblems(state: State): HTMLElement {
   const summary = make("summary");
   const list = make("ul");
   const overlay = make("details", { className: "problems" }, summary, list);
+  const status = make("div", { className: "unseen", role: "status" });
   let wasFaulty = false;
   const show = (): void => {
-    const all = [...state.problems, ...missingFiles(state)];
+    const all = [...state.problems, ...missingFiles(state), ...state.unreadable.map(asWarning)];
     const heading = headingOf(state, all);
     overlay.hidden = heading === "";
     summary.replaceChildren(heading);
+    if (status.textContent !== heading) status.replaceChildren(heading);
     list.replaceChildren(...all.map(makeItem));
     const isFaulty = all.some(({ severity }) => severity === "error");
     if (isFaulty && !wasFaulty) overlay.open = true;
     wasFaulty = isFaulty;
     overlay.classList.toggle("grave", isFaulty || state.connection !== "");
   };
-  summary.setAttribute("role", "status");
   state.listen((change) => (change === "live" || change === "scene") && show());
   show();
+  document.body.append(status); // outside of the overlay, which is hidden at times
   return overlay;
+}
+
+function asWarning(message: string): Problem {
+  return { severity: "warning", code: "", message };
 }
 
 /** Return the missing files as problems, one for each reason. */
@@ -33,21 +39,17 @@ function missingFiles(state: State): Problem[] {
   return [...byReason].map(([reason, files]) => ({
     severity: "warning",
     code: "",
-    message: `${counted(files.length, "file")} missing, drawn as boxes: ${reason}`,
+    message: `${counted(files.length, "file")} not shown: ${reason}`,
     hints: files.map(({ file, links, source }) => `${file} of ${links.join(", ")}${source ? ` at ${shownPlace(source)}` : ""}`),
   }));
 }
 
 function headingOf(state: State, all: readonly Problem[]): string {
   const errors = all.filter(({ severity }) => severity === "error").length;
-  const parts = [state.connection, counted(errors, "error"), counted(all.length - errors, "warning")];
+  const warnings = all.length - errors;
+  const parts = [state.connection, errors ? counted(errors, "error") : "", warnings ? counted(warnings, "warning") : ""];
   if (errors) parts.push(state.scene.links.length ? "the last good robot is shown" : "no robot can be shown yet");
   return parts.filter(Boolean).join(" · ");
-}
-
-function counted(count: number, what: string): string {
-  if (count === 0) return "";
-  return `${count} ${what}${count === 1 ? "" : "s"}`;
 }
 
 function makeItem(problem: Problem): HTMLElement {

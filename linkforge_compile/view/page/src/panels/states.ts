@@ -28,7 +28,7 @@ export function makePoses(state: State): HTMLElement {
   return section;
 }
 
-/** Where each free joint is at 0, or at the limit nearest to it. */
+/** Where each free joint is at 0, or in the middle of limits that exclude it. */
 export function zeroPositions(state: State): Record<string, number> {
   return Object.fromEntries(state.scene.joints.filter(isFree).map(({ name, value }) => [name, value]));
 }

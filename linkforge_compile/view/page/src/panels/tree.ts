@@ -42,18 +42,24 @@ class Tree {
       const parent = this.state.joint(link.parent)?.parent ?? "";
       below.set(parent, [...(below.get(parent) ?? []), link]);
     }
+    const focused = this.element.contains(document.activeElement) ? (document.activeElement as HTMLElement) : null;
     this.rows = new Map();
-    const add = (link: Link, level: number, above: Row | null): void => {
-      const row = new Row(link, level, above, this.state);
+    const roots = this.state.scene.links.filter(({ parent }) => !this.state.joint(parent));
+    // Not by recursion: a chain may have more links than calls may nest.
+    const waiting: [Link, Row | null][] = roots.map((root): [Link, Row | null] => [root, null]).reverse();
+    for (let next = waiting.pop(); next; next = waiting.pop()) {
+      const [link, above] = next;
+      if (this.rows.has(link.name)) continue;
+      const row = new Row(link, above, this.state);
       this.rows.set(link.name, row);
       const children = below.get(link.name) ?? [];
       row.hasChildren = children.length > 0;
-      for (const child of children) if (!this.rows.has(child.name)) add(child, level + 1, row);
-    };
-    for (const root of this.state.scene.links) if (!this.state.joint(root.parent)) add(root, 1, null);
+      for (const child of [...children].reverse()) waiting.push([child, row]);
+    }
     this.element.replaceChildren(...[...this.rows.values()].map((row) => row.element));
     this.filter();
     this.showSelection();
+    this.rows.get(focused?.dataset["link"] ?? "")?.element.focus();
   }
 
   /** Show the rows that the search finds, with all links above them; without a search, those not collapsed. */
@@ -65,8 +71,10 @@ class Tree {
       row.element.classList.toggle("found", isFound);
       if (isFound) for (let at: Row | null = row; at; at = at.above) shown.add(at);
     }
+    const inside = new Set<Row>(); // below a link that is collapsed; a row comes after the one above it
     for (const row of this.rows.values()) {
-      row.element.hidden = isSearch ? !shown.has(row) : row.isBelow(this.collapsed);
+      if (row.above && (this.collapsed.has(row.above.link.name) || inside.has(row.above))) inside.add(row);
+      row.element.hidden = isSearch ? !shown.has(row) : inside.has(row);
       row.showExpanded(isSearch || !this.collapsed.has(row.link.name));
     }
     this.element.dataset["empty"] = isSearch && shown.size === 0 ? "nothing of this name" : "";
@@ -103,9 +111,9 @@ class Tree {
   }
 
   private toggleEye(row: Row, withAllBelow: boolean): void {
-    const below = withAllBelow ? [...this.rows.values()].filter((other) => other.isUnder(row)) : [];
-    const names = [row, ...below].map(({ link }) => link.name);
-    this.state.hide(names, !this.state.hidden.has(row.link.name));
+    const chosen = new Set([row]);
+    for (const other of withAllBelow ? this.rows.values() : []) if (other.above && chosen.has(other.above)) chosen.add(other);
+    this.state.hide([...chosen].map(({ link }) => link.name), !this.state.hidden.has(row.link.name));
   }
 
   private onKey(event: KeyboardEvent): void {
@@ -140,15 +148,17 @@ class Row {
   readonly element: HTMLElement;
   hasChildren = false;
   isExpanded = true;
+  /** 1 for a root. */
+  readonly level: number;
   private readonly twisty = make("span", { className: "twisty", ariaHidden: "true" });
   private readonly eye: HTMLButtonElement;
 
   constructor(
     readonly link: Link,
-    level: number,
     readonly above: Row | null,
     private readonly state: State,
   ) {
+    this.level = above ? above.level + 1 : 1;
     this.eye = makeButton("", "", () => undefined);
     this.eye.className = "eye";
     this.eye.tabIndex = -1;
@@ -157,19 +167,10 @@ class Row {
     // At its first link only: the names of deep links need the place.
     const module = link.module === above?.link.module ? "" : link.module;
     const parts = [this.twisty, names, ...moduleTag(module), this.eye];
-    this.element = make("div", { role: "treeitem", ariaLevel: String(level), tabIndex: -1, title: link.name }, ...parts);
+    this.element = make("div", { role: "treeitem", ariaLevel: String(this.level), tabIndex: -1, title: link.name }, ...parts);
     this.element.dataset["link"] = link.name;
-    this.element.style.setProperty("--level", String(Math.min(level - 1, DEEPEST_INDENT)));
+    this.element.style.setProperty("--level", String(Math.min(this.level - 1, DEEPEST_INDENT)));
     this.showEye();
-  }
-
-  isUnder(other: Row): boolean {
-    return this.above !== null && (this.above === other || this.above.isUnder(other));
-  }
-
-  /** Whether a link above is one of these. */
-  isBelow(collapsed: ReadonlySet<string>): boolean {
-    return this.above !== null && (collapsed.has(this.above.link.name) || this.above.isBelow(collapsed));
   }
 
   showExpanded(isExpanded: boolean): void {
