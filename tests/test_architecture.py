@@ -68,8 +68,8 @@ MAY_IMPORT = {
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
-        "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp resources "
-        "units        "file_watcher _version"
+        "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp "
+        "resources units file_watcher _version"
     ),
 }
 

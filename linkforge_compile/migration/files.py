@@ -296,7 +296,7 @@ def _order(symbols: list[Symbol]) -> dict[Symbol, tuple[int, int]]:
     files: dict[str, int] = {}
     return {
         symbol: (files.setdefault(symbol.place[0], number), symbol.place[1] or number)
-        for number, symbol in enumerate(symbols)
+        for number, symbol in enumerate(dict.fromkeys(symbols))
     }
 
 

@@ -81,7 +81,7 @@ def _print(proved: Proved, arguments: argparse.Namespace) -> None:
     from linkforge_compile.migration.report import lines_of
 
     if arguments.json:
-        document = {"version": 1, "equal": proved.is_equal, "files": list(proved.files)}
+        document = {"version": 1, "same": proved.is_equal, "files": list(proved.files)}
         document |= proved.figures.as_json() if proved.figures else {}
         write_to_stdout(json_text(document))
     elif proved.figures is not None:
