@@ -33,6 +33,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("list", type=Path, nargs="?")
     parser.add_argument("--repositories", type=Path, default=Path())
+    parser.add_argument("--package", metavar="NAME=FOLDER", action="append", default=[], help="where a package is")
     parser.add_argument("--wheel", help="a package on PyPI that has xacros, such as rtb-data")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
@@ -44,6 +45,7 @@ def main() -> int:
             folder = arguments.repositories
             robots = list(_listed(arguments.list, folder))
         packages = dict(_packages(folder))
+        packages |= {name: Path(place) for name, _, place in (word.partition("=") for word in arguments.package)}
         rows = [_row(path, given, packages, folder, Path(temporary)) for path, given in robots]
     _print(rows)
     if arguments.json:
@@ -52,7 +54,19 @@ def main() -> int:
 
 
 def _unpacked(package: str, folder: Path) -> Path:
-    pip = [sys.executable, "-m", "pip", "download", "--no-deps", "--no-binary", "none", "-q", "-d", str(folder), package]
+    pip = [
+        sys.executable,
+        "-m",
+        "pip",
+        "download",
+        "--no-deps",
+        "--no-binary",
+        "none",
+        "-q",
+        "-d",
+        str(folder),
+        package,
+    ]
     subprocess.run(pip, check=True)
     for archive in folder.glob("*.whl"):
         with zipfile.ZipFile(archive) as wheel:
@@ -108,7 +122,9 @@ def _print(rows: list[dict[str, Any]]) -> None:
     macros, raw = (sum(row[key] for row in done) for key in ("macros", "raw_macros"))
     modules = sum(row["modules"] for row in done)
     same = sum(row["same"] for row in done)
-    print(f"\n{same} of {len(rows)} translated and equal; {macros} macros: {modules} modules, {raw} of them with raw XML")
+    print(
+        f"\n{same} of {len(rows)} translated and equal; {macros} macros: {modules} modules, {raw} of them with raw XML"
+    )
 
 
 if __name__ == "__main__":

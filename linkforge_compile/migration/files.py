@@ -276,7 +276,11 @@ def _raw_element(tree: YamlMap, key: tuple[str, str]) -> YamlScalar | None:
     tag, name = key
     sign = f"<{MARK}>{name}</{MARK}>" if tag == "gazebo" else f'name="$(prefix){name}"'
     found = _raw_elements(tree, lambda one: one == tag)
-    return next((one for one in found if sign in one.text), None)
+    texts = [one for one in found if sign in one.text]
+    if len(texts) < 2:
+        return texts[0] if texts else None
+    whole = "\n".join(one.text for one in texts)  # a name may be written twice
+    return YamlScalar(whole, whole, texts[0].span)
 
 
 def _without_marks(extra: YamlNode) -> YamlNode:
