@@ -3,9 +3,10 @@
     python benchmarks/migrate_vendors.py LIST --repositories FOLDER [--json FILE]
     python benchmarks/migrate_vendors.py --wheel rtb-data [--json FILE]
 
-LIST has a xacro on each line, relative to FOLDER, with its arguments: `ur_description/urdf/ur.urdf.xacro ur_type:=ur5e`.
+LIST has a xacro on each line, relative to FOLDER, with its arguments: `ur/urdf/ur.urdf.xacro ur_type:=ur5e`.
 FOLDER has checkouts of the vendors' repositories; all packages in them are given to each migration. `--wheel` fetches a
-wheel with pip and takes its xacros that name a robot. Nothing of the vendors' is kept. Exit code 1 unless all are equal.
+wheel with pip and takes its xacros that name a robot. Nothing of the vendors' is kept. The exit code is 1 unless all are
+equal.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from linkforge_compile.migration.attachment import find_attachment
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Context, Evaluator, MacroCalls
+from linkforge_compile.migration.kept import kept_call
 from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value
 from linkforge_compile.migration.symbols import (
     MAP,
@@ -74,6 +75,8 @@ class Calls(MacroCalls):
         self.defined: dict[XmlElement, Macro] = {}
         self.called: list[Called] = []
         self.modules: dict[XmlElement, Module] = {}
+        self.kept: dict[XmlElement, str] = {}
+        """Why macros stay macros of their xacro, by their bodies."""
         self._by_file: dict[FileDraft, Module] = {}
         self._is_inline = False
         self._callers: list[tuple[FileDraft, Context]] = []
@@ -98,7 +101,17 @@ class Calls(MacroCalls):
         scope: Table[Property] = Table(symbols, file=context.file if is_single else None)
         self._bind(called, values, scope, evaluator)
         inside = replace(context, macros=Table(macros), symbols=scope, calls=(*context.calls, called))
-        called.content = evaluator.walk(macro.body.content, inside)
+        try:
+            called.content = evaluator.walk(macro.body.content, inside)
+        except UndefinedError:
+            raise
+        except CannotTranslateError as error:
+            kept = None if context.is_inside else kept_call(called.arguments, macro, scope)
+            if kept is None:
+                raise
+            self.kept[macro.body] = error.reason
+            called.content = [kept]
+            return called.content
         if macro.body not in self._plan.modules or context.is_inside or self._is_inline:
             return called.content
         return [self._use(called, macros, evaluator)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from pathlib import Path
 from types import MappingProxyType
 
 from linkforge_compile.diagnostics import Diagnostics
@@ -43,7 +44,9 @@ class FileMaker:
         keeps_raw: bool = False,
         computed: Collection[Place] = (),
         packages: Mapping[str, str] = MappingProxyType({}),
+        folder: Path = Path(),
     ) -> None:
+        self._folder = folder
         self._keeps_raw, self._computed, self._packages = keeps_raw, computed, packages
         self._draft, self._modules, self._materials = draft, modules, materials
         self._placeholders = Placeholders()
@@ -63,7 +66,7 @@ class FileMaker:
             NotConstantError: if that depends on the values of names.
 
         """
-        uses = Uses(self._draft, self._placeholders, self._writer, self._modules)
+        uses = Uses(self._draft, self._placeholders, self._writer, self._modules, self._folder)
         content = [*used_materials(uses.content, self._materials), *uses.content]
         groups = Groups(content, self._writer)
         attributes = dict(self._draft.robot_attributes)

@@ -84,6 +84,7 @@ class Options(TypedDict):
     keeps_raw: bool
     computed: frozenset[Place]
     packages: Mapping[str, str]
+    folder: Path
 
 
 @dataclass
@@ -222,6 +223,7 @@ def _written(robot: FileDraft, expander: Expander, calls: Calls, settled: Settle
         "keeps_raw": settled.keeps_raw,
         "computed": settled.computed,
         "packages": expander.sources.packages,
+        "folder": expander.sources.spec_folder,
     }
     materials = materials_in(robot.content)
     # Modules that others use come first: what they need decides what these give.

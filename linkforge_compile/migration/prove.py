@@ -82,6 +82,9 @@ class Migrator:
             found = self.prove(other, prover)
             if _failures(found) < _failures(comparisons):
                 settled, migration, comparisons = tried, other, found
+        if _failures(comparisons) and migration.calls.kept:
+            reason = next(iter(migration.calls.kept.values()))
+            return self._kept(CannotTranslateError(reason), prover)
         migration, comparisons = self._with_computed_inertia(migration, comparisons, settled, prover)
         diagnostics = [*notes_of(migration), *faults_of(comparisons)]
         figures = figures_of(migration, comparisons)

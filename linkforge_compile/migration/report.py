@@ -10,6 +10,7 @@ from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     MACRO_IN_PLACE,
+    MACRO_KEPT,
     MIGRATION_DIFFERS,
     MIGRATION_UNPROVED,
 )
@@ -29,6 +30,7 @@ class Figures(NamedTuple):
     macros: int
     modules: int
     in_place: int
+    kept: int
     raw_macros: int
     properties: int
     variables: int
@@ -60,7 +62,8 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
     return Figures(
         macros=len(called),
         modules=len(modules),
-        in_place=len(called) - len(modules),
+        in_place=len(called) - len(modules) - len(migration.calls.kept),
+        kept=len(migration.calls.kept),
         raw_macros=len(raw),
         properties=tags["xacro:property"],
         variables=kept,
@@ -81,7 +84,9 @@ def lines_of(figures: Figures) -> Iterator[str]:
     """Yield the lines of a report."""
     proved = f"{figures.equal} of {_counted(figures.combinations, 'combination')} of its arguments are the same robot"
     yield f"proof       {proved}" + (f", {figures.unproved} cannot be compared" if figures.unproved else "")
-    yield f"macros      {figures.macros}: {_counted(figures.modules, 'module')}, {figures.in_place} written in place"
+    kept = f", {figures.kept} stay in xacro" if figures.kept else ""
+    macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
+    yield f"macros      {figures.macros}: {macros}"
     yield f"properties  {figures.properties}: {_counted(figures.variables, 'variable')} and data, the others in place"
     yield f"conditions  {figures.conditions}: {figures.decided} decided in place, the others in the specs"
     yield f"raw XML     {_counted(figures.raw, 'place')}"
@@ -97,8 +102,10 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
     """Yield why macros are no modules, and which arguments have one value."""
     called = {one.macro.body: one.macro for one in migration.calls.called}
     for body, reason in migration.inline.items():
-        if body in called:
+        if body in called and body not in migration.calls.kept:
             yield MACRO_IN_PLACE.at(body.span, name=called[body].name, reason=reason)
+    for body, reason in migration.calls.kept.items():
+        yield MACRO_KEPT.at(body.span, name=called[body].name, reason=reason)
     for name in sorted(migration.pinned):
         symbol = migration.expander.arguments[name]
         yield ARGUMENT_PINNED.at(symbol.where, name=name, value=str(symbol.constant))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeAlias
 
 from linkforge_compile.migration.symbols import Parts, Symbol
@@ -59,7 +60,22 @@ class Use:
     """The joint among that which attaches the module."""
 
 
-Content: TypeAlias = "Element | Choice | Text | Comment | Use"
+@dataclass(eq=False)
+class Kept:
+    """A call of a macro that stays a macro of its xacro, with the values of its parameters.
+
+    `parent` and `origin` are what the entry of the module says of the joint that attaches it.
+    """
+
+    name: str
+    file: Path
+    arguments: dict[str, Parts]
+    parent: Parts | None
+    origin: Element | None
+    prefix: str | None
+
+
+Content: TypeAlias = "Element | Choice | Text | Comment | Use | Kept"
 
 
 @dataclass(eq=False)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Mapping
+from pathlib import Path
 
+from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.migration.attachment import parts_of
 from linkforge_compile.migration.nodes import map_of, scalar
 from linkforge_compile.migration.parameters import type_of
@@ -23,7 +25,7 @@ from linkforge_compile.migration.symbols import (
     literal_of,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Spec, Use
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Kept, Spec, Use
 from linkforge_compile.migration.values import Values
 from linkforge_compile.migration.written import Writer, mark_vector
 from linkforge_compile.source import Span
@@ -37,10 +39,16 @@ class Uses:
     """The uses in one file. `content` is that of the file with a joint in the place of each use and of the mount."""
 
     def __init__(
-        self, draft: FileDraft, placeholders: Placeholders, writer: Writer, modules: Mapping[FileDraft, Spec]
+        self,
+        draft: FileDraft,
+        placeholders: Placeholders,
+        writer: Writer,
+        modules: Mapping[FileDraft, Spec],
+        spec_folder: Path,
     ) -> None:
+        self._spec_folder = spec_folder
         self._draft, self._placeholders, self._writer, self._modules = draft, placeholders, writer, modules
-        self._uses: list[tuple[Use, tuple[ast.expr, ...]]] = []
+        self._uses: list[tuple[Use | Kept, tuple[ast.expr, ...]]] = []
         self._carried: dict[str, YamlMap] = {}
         self._mount: YamlEntry | None = None
         self.content = self._without_uses(draft.content, ())
@@ -48,7 +56,7 @@ class Uses:
     def _without_uses(self, content: list[Content], guards: tuple[ast.expr, ...]) -> list[Content]:
         made: list[Content] = []
         for one in content:
-            if isinstance(one, Use):
+            if isinstance(one, Use | Kept):
                 made += self._carrier(one, len(self._uses))
                 self._uses.append((one, guards))
             elif isinstance(one, Choice):
@@ -59,19 +67,25 @@ class Uses:
                 made.append(one)
         return made
 
-    def _carrier(self, use: Use, number: int) -> list[Content]:
+    def _carrier(self, use: Use | Kept, number: int) -> list[Content]:
         """Return a joint that carries the parent and the origin of a use."""
-        if use.attachment is None:
+        if isinstance(use, Kept):
+            if use.parent is None:
+                return []
+            parent, origin = Element("parent", {"link": use.parent}, []), use.origin
+        elif use.attachment is None:
             return []
-        origin = next((one for one in use.attachment.content if isinstance(one, Element) and one.tag == "origin"), None)
-        parent = next(one for one in use.attachment.content if isinstance(one, Element) and one.tag == "parent")
+        else:
+            parts = {one.tag: one for one in use.attachment.content if isinstance(one, Element)}
+            parent, origin = parts["parent"], parts.get("origin")
         child = Element("child", {"link": (f"{_CARRIER}{number}",)}, [])
         content: list[Content] = [parent, child, *([origin] if origin else [])]
         return [Element("joint", {"name": (f"{_CARRIER}{number}",), "type": ("fixed",)}, content)]
 
     def names(self) -> frozenset[str]:
         """Return the names of the links and joints of the modules."""
-        parts = (one for use, _ in self._uses for one, _ in parts_of(use.inline or [], ()))
+        inline = [use.inline or [] for use, _ in self._uses if isinstance(use, Use)]
+        parts = (one for content in inline for one, _ in parts_of(content, ()))
         return frozenset(
             self._writer.name(one.attributes.get("name", ())) for one in parts if one.tag in ("link", "joint")
         )
@@ -96,56 +110,68 @@ class Uses:
         entries: dict[str, YamlNode | None] = {}
         for number, (use, guards) in enumerate(self._uses):
             name = self._entry_name(use, entries)
-            entries[name] = self._entry(use, guards, self._carried.get(f"{_CARRIER}{number}"), values, where)
+            carried = self._carried.get(f"{_CARRIER}{number}")
+            own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, values, where)
+            entries[name] = self._entry(own, guards, carried, where)
         if entries:
             made["modules"] = map_of(entries, where)
         return made
 
-    def _entry_name(self, use: Use, taken: Mapping[str, object]) -> str:
+    def _entry_name(self, use: Use | Kept, taken: Mapping[str, object]) -> str:
         """Return the name of an entry: that in its arguments if there is one, else that of the macro."""
         words = [use.arguments.get(key) for key in ("name", "prefix", "link_name", "side", "suffix")]
         text = next((str(one[0]) for one in words if one and is_literal(one) and str(one[0]).strip()), "")
-        base = re.sub(r"\W+", "_", text).strip("_") or use.module.name
-        if text and base != use.module.name and len(base) < 3:
-            base = f"{base}_{use.module.name}"
+        own = use.name if isinstance(use, Kept) else use.module.name
+        base = re.sub(r"\W+", "_", text).strip("_") or own
+        if text and base != own and len(base) < 3:
+            base = f"{base}_{own}"
         name, number = base, 2
         while name in taken:
             name, number = f"{base}_{number}", number + 1
         return name
 
-    def _entry(
-        self, use: Use, guards: tuple[ast.expr, ...], carried: YamlMap | None, values: Values, where: Span
-    ) -> YamlMap:
+    def _kept(self, kept: Kept, values: Values, where: Span) -> dict[str, YamlNode | None]:
+        """Return what the entry of a macro that stays one has of its own."""
+        given = {name: values.value(parts or ("",), where, "") for name, parts in kept.arguments.items()}
+        return {
+            "use": scalar(relative_path(self._spec_folder, kept.file.absolute()), where),
+            "macro": scalar(kept.name, where),
+            "prefix": None if kept.prefix is None else scalar(kept.prefix, where),
+            "with": map_of(given, where) if given else None,
+        }
+
+    def _own(self, use: Use, values: Values, where: Span) -> dict[str, YamlNode | None]:
+        """Return what the entry of a module has of its own."""
         spec = self._modules[use.module]
         given: dict[str, YamlNode | None] = {}
         by_wish = {symbol.wish: symbol for symbol in use.module.symbols if symbol.role == "parameter"}
         for wish, parts in use.arguments.items():
             symbol = by_wish.get(wish)
-            if symbol is None or symbol not in spec.used:
-                continue
-            if _same_value(parts, symbol):
+            if symbol is None or symbol not in spec.used or _same_value(parts, symbol):
                 continue
             if len(parts) == 1 and isinstance(parts[0], ast.expr):
                 if symbol.kind == VECTOR and isinstance(parts[0], Reference):
                     mark_vector(parts[0].symbol, symbol.size)
                 self._writer.placements.append((parts[0], type_of(symbol)))
             given[spec.names[symbol]] = self._placed(parts, symbol, values, where)
+        return {
+            "use": scalar(f"{use.module.stem}.robot.yaml", where),
+            "prefix": scalar("", where),
+            "with": map_of(given, where) if given else None,
+        }
+
+    def _entry(
+        self, own: Mapping[str, YamlNode | None], guards: tuple[ast.expr, ...], carried: YamlMap | None, where: Span
+    ) -> YamlMap:
+        """Return an entry with its condition, and the parent and origin that a joint has carried."""
         when = None
         if guards:
             test = guards[0] if len(guards) == 1 else ast.BoolOp(op=ast.And(), values=list(guards))
             text = self._placeholders.number(test)
             when = YamlScalar(text, text, where)
-        parts_of_joint = {key: carried.get(key) if carried else None for key in ("parent", "origin")}
-        return map_of(
-            {
-                "when": when,
-                "use": scalar(f"{use.module.stem}.robot.yaml", where),
-                **parts_of_joint,
-                "prefix": scalar("", where),
-                "with": map_of(given, where) if given else None,
-            },
-            where,
-        )
+        joint = {key: carried.get(key) if carried else None for key in ("parent", "origin")}
+        first = {key: own[key] for key in ("use", "macro") if key in own}
+        return map_of({"when": when, **first, **joint, **own}, where)
 
     def _placed(self, parts: Parts, symbol: Symbol, values: Values, where: Span) -> YamlNode:
         """Return the value of a parameter."""

@@ -108,3 +108,25 @@ def test_the_example_of_the_docs_is_what_the_command_writes(tmp_path: Path):
     assert linkforge("migrate", "cart.urdf.xacro", cwd=tmp_path).returncode == 0
     shown = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
     assert [(tmp_path / name).read_text("utf-8") for name in ("cart.robot.yaml", "wheel.robot.yaml")] == shown
+
+
+def test_a_macro_that_cannot_be_translated_stays_one(tmp_path: Path):
+    write(
+        tmp_path,
+        robot="""
+        <xacro:include filename="parts.xacro"/>
+        <link name="base"/>
+        <xacro:part name="tip" parent="base"/>
+        """,
+        parts="""
+        <xacro:macro name="part" params="name parent">
+          <xacro:element xacro:name="link" name="${name}"/>
+          <joint name="${name}_joint" type="fixed"><parent link="${parent}"/><child link="${name}"/></joint>
+        </xacro:macro>
+        """,
+    )
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+    assert "macro 'part' stays a macro of its xacro" in ran.stderr  # LF8045
+    spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
+    assert 'tip: {use: ../parts.xacro, macro: part, parent: base, prefix: "", with: {name: tip}}' in spec

@@ -86,6 +86,9 @@ ARGUMENT_PINNED = Code(
     "'{name}' is '{value}' in the specs, because it decides which files or macros there are; migrate again for another",
 )
 XACRO_KEPT = Code("LF8043", _W, "this xacro is used as it is, because the language has no form for {reason}")
+MACRO_KEPT = Code(
+    "LF8045", _W, "macro '{name}' stays a macro of its xacro, because the language has no form for {reason}"
+)
 MIGRATION_UNPROVED = Code(
     "LF8044", _W, "with {arguments}, nothing is compared, because xacro's robot is faulty: {reason}"
 )
