@@ -5,8 +5,8 @@
 
 LIST has a xacro on each line, relative to FOLDER, with its arguments: `ur/urdf/ur.urdf.xacro ur_type:=ur5e`.
 FOLDER has checkouts of the vendors' repositories; all packages in them are given to each migration. `--wheel` fetches a
-wheel with pip and takes its xacros that name a robot. Nothing of the vendors' is kept. The exit code is 1 unless all are
-equal.
+wheel with pip and takes its xacros that name a robot. Nothing of the vendors' is kept. Exit code 1 unless all are the
+same.
 """
 
 from __future__ import annotations
@@ -42,10 +42,12 @@ def main() -> int:
         if arguments.wheel:
             folder = _unpacked(arguments.wheel, Path(temporary))
             robots = [(path, {}) for path in _robots_in(folder)]
+            # Wheels leave out the manifests, and name the folders as the packages.
+            named = {path.name: path.absolute() for path in folder.rglob("xacro/*") if path.is_dir()}
         else:
-            folder = arguments.repositories
+            folder, named = arguments.repositories, {}
             robots = list(_listed(arguments.list, folder))
-        packages = dict(_packages(folder))
+        packages = {**named, **dict(_packages(folder))}
         packages |= {name: Path(place) for name, _, place in (word.partition("=") for word in arguments.package)}
         rows = [_row(path, given, packages, folder, Path(temporary)) for path, given in robots]
     _print(rows)

@@ -14,8 +14,10 @@ Guards = tuple[ast.expr, ...]
 """The conditions under which something exists."""
 
 
-def find_attachment(content: list[Content]) -> Element | None:
+def find_attachment(content: list[Content], *, may_be_nested: bool = False) -> Element | None:
     """Return the joint that attaches the links of a content to another link; None if there is none.
+
+    It is in the content itself, or `may_be_nested` in what a module in it is.
 
     Raises:
         CannotTranslateError: if the content cannot be a module: its links are not one tree, or it is about others.
@@ -38,7 +40,7 @@ def find_attachment(content: list[Content]) -> Element | None:
     if len(outside) > 1:
         raise CannotTranslateError("more than one joint attaches it to other links")
     attached = outside[0][0] if outside else None
-    if attached is not None and id(attached) not in own:
+    if attached is not None and id(attached) not in own and not may_be_nested:
         raise CannotTranslateError("the joint that attaches it is in a macro that is a module")
     if attached is not None and _end(attached, "child") not in roots:
         raise CannotTranslateError("the joint to another link does not carry its root")

@@ -78,7 +78,8 @@ class Calls(MacroCalls):
         self.kept: dict[XmlElement, str] = {}
         """Why macros stay macros of their xacro, by their bodies."""
         self._by_file: dict[FileDraft, Module] = {}
-        self._is_inline = False
+        self._parts: dict[FileDraft, frozenset[XmlElement]] = {}
+        """The macros that are written in place in a module, because the joint that attaches it is in them."""
         self._callers: list[tuple[FileDraft, Context]] = []
 
     def define(self, macro: Macro) -> None:
@@ -112,7 +113,8 @@ class Calls(MacroCalls):
             self.kept[macro.body] = error.reason
             called.content = [kept]
             return called.content
-        if macro.body not in self._plan.modules or context.is_inside or self._is_inline:
+        is_part = macro.body in self._parts.get(context.file, ())
+        if macro.body not in self._plan.modules or context.is_inside or is_part:
             return called.content
         return [self._use(called, macros, evaluator)]
 
@@ -160,7 +162,7 @@ class Calls(MacroCalls):
         for name, find in module.imports.items():
             use.arguments[name] = as_parts(find(called.context, evaluator)) or ("",)
         use.inline = called.content
-        use.attachment = find_attachment(called.content)
+        use.attachment = find_attachment(called.content, may_be_nested=True)
         return use
 
     def _module(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Module:
@@ -186,6 +188,9 @@ class Calls(MacroCalls):
         module = self.modules[macro.body] = Module(file, macro, context)
         self._by_file[file] = module
         self._callers.append((file, called.context))
+        attached = find_attachment(called.content, may_be_nested=True)
+        chain = [one for one in attached.calls if isinstance(one, Called)] if attached else []
+        self._parts[file] = frozenset(one.macro.body for one in chain) - {macro.body}
         try:
             file.content = evaluator.walk(macro.body.content, context)
             file.attachment = find_attachment(file.content)

@@ -18,6 +18,7 @@ from linkforge_compile.migration.symbols import (
     NotConstantError,
     Parts,
     Reference,
+    UndefinedError,
     as_expression,
     as_parts,
     call,
@@ -234,6 +235,10 @@ class _Translator:
         match name, arguments:
             case "load_yaml", [path]:
                 return self._names.load_data(as_parts(path))
+            case "warning" | "error" | "message" | "print_location", _:
+                return constant("")  # they print and give an empty text
+            case "fatal", _:
+                raise UndefinedError(f"fatal() in '${{{self._text}}}'")
             case "arg", [argument] if isinstance(text := literal_of(argument), str):
                 return as_expression(self._names.extension(f"arg {text}"))
             case "pow", [base, power]:
