@@ -55,6 +55,11 @@ class Migration:
     """Why a macro is no module, by its body."""
 
     @property
+    def modules(self) -> dict[XmlElement, FileDraft]:
+        """The modules that something uses, by the bodies of their macros."""
+        return {body: module.file for body, module in self.calls.modules.items() if module.file in self.specs}
+
+    @property
     def names(self) -> dict[str, str]:
         """The parameters of the robot by the arguments that they were."""
         robot = self.specs[self.expander.robot]

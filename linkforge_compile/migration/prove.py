@@ -71,7 +71,7 @@ class Migrator:
                 found = self.prove(other, prover)
                 if _failures(found) < _failures(comparisons):
                     settled, migration, comparisons = Settled(keeps_raw=True), other, found
-        for body in list(migration.calls.modules):
+        for body in list(migration.modules):
             if _failures(comparisons) == 0:
                 break
             reason = f"as a module it is another robot, {_first_failure(comparisons)}"

@@ -53,8 +53,8 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
     """Return the numbers of a migration and its proof."""
     expander = migration.expander
     called = {one.macro.body for one in migration.calls.called}
-    modules = {body for body in migration.calls.modules if body in called}
-    raw = {module.macro.body for module in migration.calls.modules.values() if migration.specs[module.file].raw}
+    modules = migration.modules
+    raw = [file for file in modules.values() if migration.specs[file].raw]
     elements = [one for document in expander.sources.documents.values() for one in document.root.walk()]
     tags = Counter(one.tag for one in elements)
     texts = [document.root.file.text for document in expander.sources.documents.values()]
