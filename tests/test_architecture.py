@@ -52,6 +52,10 @@ MAY_IMPORT = {
         "source diagnostics limits syntax core compilation importers load expand lower formats analysis "
         "pipeline fresh_stack gc_paused"
     ),
+    "migration": (
+        "source diagnostics units syntax expressions core compilation importers load compare analysis pipeline "
+        "importing paths"
+    ),
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
@@ -64,8 +68,8 @@ MAY_IMPORT = {
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
-        "pipeline importing formats formatter overview export_spec compare collisions view editor lsp resources units "
-        "file_watcher _version"
+        "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp "
+        "resources units file_watcher _version"
     ),
 }
 

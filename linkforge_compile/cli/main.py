@@ -36,6 +36,7 @@ COMMANDS = {
     "where": "find what in a spec wrote a line of an output",
     "collisions": "find the pairs of links that need no check for collisions, by sampling",
     "import": "convert an existing URDF to a spec",
+    "migrate": "translate a xacro to specs: a module for each macro, proved to be the same robot",
     "schema": "print the JSON Schema of specs, for editors",
     "formats": "list the output formats, with what each keeps and loses of a robot",
     "deps": "list the files from which a robot is compiled",

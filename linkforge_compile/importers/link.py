@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
@@ -106,12 +106,17 @@ def _entries(node: YamlNode) -> dict[str, YamlNode]:
 
 def _short_collisions(link: ElementReader, visuals: list[YamlNode], collisions: list[YamlNode]) -> YamlNode | None:
     """Return `visual` for collisions that have the shapes and poses of all visuals and nothing else."""
-    bare = [_shape_and_pose(visual) for visual in visuals if isinstance(visual, YamlMap)]
-    if not collisions or len(bare) != len(collisions) or not all(map(is_same, bare, collisions)):
+    if link.draft.is_template or not are_shapes_of(visuals, collisions):
         return link.draft.one_or_list(collisions)
     copy = link.draft.text("visual", collisions[0].span)
     link.draft.note_same_source(copy, *collisions)
     return copy
+
+
+def are_shapes_of(visuals: Sequence[YamlNode], collisions: Sequence[YamlNode]) -> bool:
+    """Whether collisions have the shapes and poses of all visuals and nothing else."""
+    bare = [_shape_and_pose(visual) for visual in visuals if isinstance(visual, YamlMap)]
+    return bool(collisions) and len(bare) == len(collisions) and all(map(is_same, bare, collisions))
 
 
 def _shape_and_pose(visual: YamlMap) -> YamlMap:

@@ -33,12 +33,12 @@ class Origin(NamedTuple):
         None for the working directory.
         """
         folder = spec.parent if spec else Path()
-        options = [*(("--srdf", _from(folder, self.srdf)) if self.srdf else ())]
+        options = [*(("--srdf", relative_path(folder, self.srdf)) if self.srdf else ())]
         for name, place in self.packages.items():
-            options += ("--package", f"{name}={_from(folder, place)}")
+            options += ("--package", f"{name}={relative_path(folder, place)}")
         options += ["--allow-outside"] if self.is_outside_allowed else []
         options += ("-o", spec.name) if spec else ()
-        command = ("linkforge", "import", _from(folder, self.urdf), *self.assignments, *options)
+        command = ("linkforge", "import", relative_path(folder, self.urdf), *self.assignments, *options)
         own = digest_of([text.encode()])
         return f"# {on_one_line(shlex.join(command))}\n{_FILES}{self.digest}\n{_TEXT}{own}\n\n{text}"
 
@@ -78,7 +78,8 @@ def digest_of(contents: Iterable[bytes]) -> str:
     return digest.hexdigest()
 
 
-def _from(folder: Path, file: Path) -> str:
+def relative_path(folder: Path, file: Path) -> str:
+    """Return the path of a file from a folder."""
     try:
         return Path(os.path.relpath(file, folder)).as_posix()
     except ValueError:  # another drive of Windows

@@ -91,6 +91,7 @@ class Blocks:
         self._draft = robot.draft
         self._blocks: list[tuple[str | None, YamlNode]] = []
         names = {child.get("name") for child in robot.element.children if child.tag in ("link", "joint")}
+        names |= robot.draft.outside
         for child in robot.remaining("gazebo"):
             node = robot.try_read(child, lambda block: _read_block(block, names))
             if node is not None:

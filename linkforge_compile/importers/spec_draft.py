@@ -67,7 +67,8 @@ class SpecDraft:
     of a version that has them; readers of others ignore them. `shapes` are the robot's. In the elements `at_fault` an
     error has been reported; what cannot be represented of them becomes a YamlFault, not raw XML. `is_urdf` is whether
     urdfdom reads the document. `renamed` has the names that are replaced, which raw XML still has;
-    `package_paths` finds the folders of packages in texts.
+    `package_paths` finds the folders of packages in texts. `outside` are the names
+    of parts of others that the spec is merged with; it is a template then.
 
     `keys` has the key or list item of each element, `bodies` the node below it, `raw` the elements that are kept raw,
     `diagnostics` the reports of the import. `size` is the number of values so far, counting keys.
@@ -83,6 +84,7 @@ class SpecDraft:
         is_urdf: bool = False,
         renamed: Mapping[str, str] = MappingProxyType({}),
         package_paths: PackagePaths = NO_PACKAGE_PATHS,
+        outside: Collection[str] | None = None,
     ) -> None:
         self._max_size = Budget(times=_TIMES_DRAFTED).left(Limit.VALUES)
         self.size = 0
@@ -91,6 +93,7 @@ class SpecDraft:
         self.is_urdf = is_urdf
         self.renamed = renamed
         self.package_paths = package_paths
+        self.is_template, self.outside = outside is not None, frozenset(outside or ())
         self.has_quaternions = has_quaternions
         self.shapes = shapes
         self.keys: dict[XmlElement, YamlNode] = {}

@@ -42,13 +42,16 @@ def read_urdf(
     *,
     keeps_refused: bool = False,
     package_paths: PackagePaths = NO_PACKAGE_PATHS,
+    outside: Collection[str] | None = None,
 ) -> Imported | None:
     """Read a URDF document; None where it is none, which is reported.
 
     The tree has all of its content, in the language's words or as raw XML; what is left out is reported. `moved` gives
     elements the places in which they were written. What readers of URDF refuse is reported as an error and at fault in
     the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec. `package_paths` are
-    written as expressions.
+    written as expressions. `outside` is given for a document that is merged with others, the names of links and joints
+    that it may name: in such a one, links and joints are no frames, and nothing is shortened to a word that stands for
+    something else.
     """
     document = read_document(file, sink, moved)
     if document is None:
@@ -61,7 +64,7 @@ def read_urdf(
     document, renamed = rename_parts(document, sink)
     root = document.root
     refused = find_commanded_again(root) if keeps_refused else {}
-    draft, tree = _draft(root, renamed, package_paths, refused=refused)
+    draft, tree = _draft(root, renamed, package_paths, refused=refused, outside=outside)
     # What readers refuse has no form in the language, so there is none of it unless something is raw or left out.
     has_repeats = any(one.code is MATERIAL_REPEATED for one in draft.diagnostics)
     if (draft.raw or has_repeats) and not keeps_refused and (refusals := tuple(find_refusals(root))):
@@ -87,6 +90,7 @@ def _draft(
     *,
     refused: Mapping[XmlElement, CannotRepresentError] = MappingProxyType({}),
     at_fault: Collection[XmlElement] = (),
+    outside: Collection[str] | None = None,
 ) -> tuple[SpecDraft, YamlMap]:
     draft = SpecDraft(
         refused,
@@ -96,6 +100,7 @@ def _draft(
         is_urdf=True,
         renamed=renamed,
         package_paths=package_paths,
+        outside=outside,
     )
     tree = _read_robot(ElementReader(draft, root))
     draft.bodies[root] = tree
@@ -138,9 +143,9 @@ def _read_robot(robot: ElementReader) -> YamlMap:
     blocks = Blocks(robot)
     links = read_named(robot, "link", lambda link: read_link(link, palette, blocks))
     joint_names = (child.get("name") or "" for child in robot.element.children if child.tag == "joint")
-    names = {"joint": {draft.text(joint, robot.element).text for joint in joint_names}}
+    names = {"joint": {draft.text(joint, robot.element).text for joint in joint_names}.union(draft.outside)}
     joints = read_named(robot, "joint", lambda joint: read_joint(joint, names, blocks))
-    frames = _take_frames(draft, links, joints)
+    frames = {} if draft.is_template else _take_frames(draft, links, joints)
     transmissions = read_named(robot, "transmission", lambda one: read_transmission(one, names))
     controls = read_named(robot, "ros2_control", read_ros2_control)
     return robot.map(

@@ -77,6 +77,22 @@ XACRO_UNKNOWN_NAME = Code("LF8063", _E, "xacro knows no {kind} named '{name}' he
 XACRO_FILE_MISSING = Code("LF8064", _E, "xacro needs the file '{path}', which does not exist")
 ARGUMENTS_NOT_LISTED = Code("LF8061", _N, "the arguments that '{path}' declares are not listed: {reason}")
 
+# LF804x: the migration of a xacro
+MIGRATION_DIFFERS = Code("LF8040", _E, "with {arguments}, the specs are another robot: {text}")
+MACRO_IN_PLACE = Code("LF8041", _N, "macro '{name}' is no module: {reason}; its content is written where it is called")
+ARGUMENT_PINNED = Code(
+    "LF8042",
+    _W,
+    "'{name}' is '{value}' in the specs, because it decides which files or macros there are; migrate again for another",
+)
+XACRO_KEPT = Code("LF8043", _W, "this xacro is used as it is, because the language has no form for {reason}")
+MACRO_KEPT = Code(
+    "LF8045", _W, "macro '{name}' stays a macro of its xacro, because the language has no form for {reason}"
+)
+MIGRATION_UNPROVED = Code(
+    "LF8044", _W, "with {arguments}, nothing is compared, because xacro's robot is faulty: {reason}"
+)
+
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
     "LF8132", _E, "this is a URDF, not an SRDF, because it has a <{tag}> of its own; give the robot's SRDF"

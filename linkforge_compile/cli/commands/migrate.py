@@ -1,0 +1,99 @@
+"""`linkforge migrate`: a xacro as specs, with its macros as modules."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.options import (
+    add_outside_option,
+    add_package_option,
+    packages_of,
+    require_one_spec,
+    split_assignments,
+)
+from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
+
+if TYPE_CHECKING:
+    import argparse
+
+    from linkforge_compile.migration.prove import Proved
+
+_EXAMPLES = """\
+Macros become modules with parameters, properties variables, arguments parameters, and conditions `when`. The xacro is
+read without running it; then the specs are compiled and compared with what xacro expands, for each value of a boolean
+argument and each word that one is compared with, in all combinations. Nothing is written unless all are the same robot.
+
+examples:
+  linkforge migrate arm.urdf.xacro -o robots/
+  linkforge migrate ur.urdf.xacro ur_type:=ur5e name:=ur -o robots/
+  linkforge migrate ur.urdf.xacro ur_type:=ur5e name:=ur -o robots/ --verify     compare the specs that are there
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.usage = "linkforge migrate [options] ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
+    parser.epilog = _EXAMPLES
+    parser.add_argument("words", metavar="ROBOT.urdf.xacro", nargs="+", help="the xacro of the whole robot")
+    parser.add_argument("-o", "--output", metavar="FOLDER", default=".", help="the folder of the specs (here)")
+    parser.add_argument("--force", action="store_true", help="replace existing specs with other content")
+    parser.add_argument(
+        "--verify", action="store_true", help="compare the specs in the folder with the xacro, and write nothing"
+    )
+    parser.add_argument("--json", action="store_true", help="print the report as JSON, for tools")
+    add_package_option(parser)
+    add_outside_option(parser)
+    add_report_options(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    files, assignments = split_assignments(arguments.words)
+    xacro = Path(require_one_spec(files))
+    if not xacro.is_file():
+        raise UsageError(f"'{xacro}' is no file")
+    from linkforge_compile.analysis import Settings
+    from linkforge_compile.diagnostics import Diagnostics
+    from linkforge_compile.migration.prove import Migrator
+
+    settings = Settings((), packages_of(arguments), allow_outside=arguments.allow_outside)
+    folder, sink = Path(arguments.output), Diagnostics()
+    given = dict(_split(word) for word in assignments)
+    migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink)
+    with progress_after(f"reading {xacro}", arguments):
+        proved = migrator.verify() if arguments.verify else migrator.run()
+    report(proved.diagnostics, arguments)
+    _print(proved, arguments)
+    if not proved.is_equal:
+        return FAULTY_SPEC
+    if not arguments.verify:
+        _write(proved, folder, arguments)
+    return OK
+
+
+def _split(word: str) -> tuple[str, str]:
+    name, _, value = word.partition(":=" if ":=" in word else "=")
+    return name, value
+
+
+def _print(proved: Proved, arguments: argparse.Namespace) -> None:
+    from linkforge_compile.cli.output import json_text, write_to_stdout
+    from linkforge_compile.migration.report import lines_of
+
+    if arguments.json:
+        document = {"version": 1, "same": proved.is_equal, "files": list(proved.files)}
+        document |= proved.figures.as_json() if proved.figures else {}
+        write_to_stdout(json_text(document))
+    elif proved.figures is not None:
+        write_to_stdout("".join(f"{line}\n" for line in lines_of(proved.figures)))
+
+
+def _write(proved: Proved, folder: Path, arguments: argparse.Namespace) -> None:
+    from linkforge_compile.cli.output import write_changed
+
+    contents = {folder / name: text for name, text in proved.files.items()}
+    others = [path for path, text in contents.items() if path.is_file() and path.read_text("utf-8") != text]
+    if others and not arguments.force:
+        raise UsageError(f"'{others[0]}' exists with other content; use --force to replace it")
+    write_changed(contents)
+    print_status(f"wrote {', '.join(str(path) for path in contents)}", arguments)

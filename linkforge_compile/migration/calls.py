@@ -1,0 +1,346 @@
+"""Calls of macros: written in place, or as the use of a module."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from linkforge_compile.migration.attachment import find_attachment
+from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.evaluate import Context, Evaluator, MacroCalls
+from linkforge_compile.migration.kept import kept_call
+from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value
+from linkforge_compile.migration.symbols import (
+    MAP,
+    UNKNOWN,
+    UNSET,
+    CannotTranslateError,
+    NoModuleError,
+    NotConstantError,
+    Parts,
+    Reference,
+    Symbol,
+    UndefinedError,
+    as_expression,
+    as_parts,
+    constant,
+    kind_of,
+    refer,
+    sources_of,
+    value_of,
+)
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, walk
+from linkforge_compile.source.xml_tree import XmlElement
+
+
+@dataclass(eq=False)
+class Called:
+    """One call of a macro: the values of its parameters, and what it expanded to."""
+
+    macro: Macro
+    element: XmlElement
+    context: Context
+    arguments: dict[str, Parts] = field(default_factory=dict)
+    content: list[Content] = field(default_factory=list)
+
+
+@dataclass(eq=False)
+class Module:
+    """A macro as a module: its file, and what it needs of the scopes of its callers, by parameter."""
+
+    file: FileDraft
+    macro: Macro
+    context: Context
+    imports: dict[str, Callable[[Context, Evaluator], ast.expr]] = field(default_factory=dict)
+
+
+@dataclass
+class Plan:
+    """Which macros become modules, by their bodies, with what is known of the values of their parameters."""
+
+    modules: dict[XmlElement, dict[str, str]] = field(default_factory=dict)
+    """The kinds of the parameters, by name."""
+    single: frozenset[XmlElement] = frozenset()
+    """The macros that are called once."""
+    fixed: dict[XmlElement, frozenset[str]] = field(default_factory=dict)
+    """Parameters that have the same value in all calls, and are no parameters of the module."""
+
+
+class Calls(MacroCalls):
+    """The macros of one expansion and their calls."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self.defined: dict[XmlElement, Macro] = {}
+        self.called: list[Called] = []
+        self.modules: dict[XmlElement, Module] = {}
+        self.kept: dict[XmlElement, str] = {}
+        """Why macros stay macros of their xacro, by their bodies."""
+        self._by_file: dict[FileDraft, Module] = {}
+        self._parts: dict[FileDraft, frozenset[XmlElement]] = {}
+        """The macros that are written in place in a module, because the joint that attaches it is in them."""
+        self._callers: list[tuple[FileDraft, Context]] = []
+
+    def define(self, macro: Macro) -> None:
+        self.defined[macro.body] = macro
+
+    def call(self, element: XmlElement, context: Context, evaluator: Evaluator) -> list[Content]:
+        """Return what a call expands to, or the use of a module."""
+        name, values = element.tag.removeprefix("xacro:"), dict(element.values)
+        if name == "call":
+            name = evaluator.path_text(evaluator.text(values.pop("macro", ""), context))
+        macro, macros, symbols = _find(name, context)
+        if macro is None:
+            raise UndefinedError(f"a call of the macro '{name}', which is not defined,")
+        called = Called(macro, element, context)
+        self.called.append(called)
+        # Of a macro that is called once, properties are as good as those around it.
+        is_single = not context.is_inside and self._plan.single.issuperset(
+            (macro.body, *(one.macro.body for one in context.calls if isinstance(one, Called)))
+        )
+        scope: Table[Property] = Table(symbols, file=context.file if is_single else None)
+        self._bind(called, values, scope, evaluator)
+        inside = replace(context, macros=Table(macros), symbols=scope, calls=(*context.calls, called))
+        try:
+            called.content = evaluator.walk(macro.body.content, inside)
+        except UndefinedError:
+            raise
+        except CannotTranslateError as error:
+            kept = None if context.is_inside else kept_call(called.arguments, macro, scope)
+            if kept is None:
+                raise
+            self.kept[macro.body] = error.reason
+            called.content = [kept]
+            return called.content
+        is_part = macro.body in self._parts.get(context.file, ())
+        if macro.body not in self._plan.modules or context.is_inside or is_part:
+            return called.content
+        return [self._use(called, macros, evaluator)]
+
+    def _bind(self, called: Called, values: dict[str, str], scope: Table[Property], evaluator: Evaluator) -> None:
+        """Give the parameters of a macro their values in a scope."""
+        macro, context = called.macro, called.context
+        for name, value in values.items():
+            if name not in macro.parameters:
+                raise CannotTranslateError(f"a parameter '{name}', which the macro '{macro.name}' does not have,")
+            called.arguments[name] = evaluator.text(value, context)
+        content = evaluator.walk(called.element.content, context)
+        blocks = [one for one in content if isinstance(one, Element)]
+        if any(isinstance(one, Choice | Use) for one in content):
+            raise CannotTranslateError(f"a call of '{macro.name}' whose block is not certain")
+        for parameter in macro.parameters:
+            if parameter.startswith("*"):
+                if not blocks:
+                    raise CannotTranslateError(f"a call of '{macro.name}' whose block is not certain")
+                block = blocks.pop(0)
+                inside = block.content if parameter.startswith("**") else [block]
+                scope.entries[parameter] = Block(content=tuple(inside))
+            elif parameter not in called.arguments:
+                called.arguments[parameter] = self._default(macro, parameter, context, evaluator)
+        for name, parts in called.arguments.items():
+            scope.entries[name] = Value(value_of(parts))
+
+    def _default(self, macro: Macro, parameter: str, context: Context, evaluator: Evaluator) -> Parts:
+        forwarded, default = macro.defaults.get(parameter, (None, None))
+        if forwarded is not None:
+            node = evaluator.lookup(forwarded, context)
+            if node is not None:
+                return as_parts(node) or ("",)
+        if default is None and parameter not in macro.defaults:
+            raise CannotTranslateError(f"a call of '{macro.name}' without '{parameter}'")
+        return evaluator.text(_unquoted(default or ""), context)
+
+    # Modules
+
+    def _use(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Use:
+        macro = called.macro
+        module = self.modules.get(macro.body)
+        if module is None:
+            module = self._module(called, macros, evaluator)
+        use = Use(module.file, dict(called.arguments), called.element)
+        for name, find in module.imports.items():
+            use.arguments[name] = as_parts(find(called.context, evaluator)) or ("",)
+        use.inline = called.content
+        use.attachment = find_attachment(called.content, may_be_nested=True)
+        return use
+
+    def _module(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Module:
+        macro, kinds = called.macro, self._plan.modules[called.macro.body]
+        file = FileDraft(macro.name, root=macro.body, comment=macro.comment, is_module=True, stem=macro.name)
+        scope: Table[Property] = Table(file=file)
+        for parameter in macro.parameters:
+            if parameter.startswith("*"):
+                block = Element("origin", {}, [], calls=("block", parameter))
+                scope.entries[parameter] = Block(content=(block,))
+                continue
+            if parameter in self._plan.fixed.get(macro.body, ()):
+                scope.entries[parameter] = Value(value_of(called.arguments[parameter]))
+                continue
+            default = macro.defaults.get(parameter, (None, None))[1]
+            kind = kinds.get(parameter, UNKNOWN)
+            symbol = Symbol(parameter, "parameter", kind=kind)
+            if default is not None and "$" not in default:
+                symbol.value = as_parts(value_of((_unquoted(default),) if default else ("",))) or ("",)
+            file.symbols.append(symbol)
+            scope.entries[parameter] = Value(refer(symbol))
+        context = Context(file, called.context.folder, Table(macros), scope, (called,))
+        module = self.modules[macro.body] = Module(file, macro, context)
+        self._by_file[file] = module
+        self._callers.append((file, called.context))
+        attached = find_attachment(called.content, may_be_nested=True)
+        chain = [one for one in attached.calls if isinstance(one, Called)] if attached else []
+        self._parts[file] = frozenset(one.macro.body for one in chain) - {macro.body}
+        try:
+            file.content = evaluator.walk(macro.body.content, context)
+            file.attachment = find_attachment(file.content)
+            _require_known_blocks(file)
+        except CannotTranslateError as error:
+            raise NoModuleError(macro.body, error.reason) from None
+        except NotConstantError as error:
+            if any(symbol.is_argument for symbol in error.symbols):
+                raise
+            raise no_module(file, error) from None
+        finally:
+            self._callers.pop()
+        return module
+
+    def _caller(self, context: Context) -> Context | None:
+        return next((caller for file, caller in reversed(self._callers) if file is context.file), None)
+
+    def block(self, name: str, context: Context) -> Block | None:
+        """Return the elements that a property of a caller holds, for a module."""
+        caller = self._caller(context)
+        found = caller.symbols.get(f"**{name}") if caller else None
+        if found is None and caller is not None:
+            return self.block(name, caller)
+        return found if isinstance(found, Block) and found.elements is not None else None
+
+    def imported(self, name: str, context: Context, evaluator: Evaluator) -> ast.expr | None:
+        """Return a name of a caller in a module: a constant as a variable of its own, another one as a parameter."""
+        caller = self._caller(context)
+        if caller is None:
+            return None
+        found = caller.symbols.find(name)
+        node = evaluator.lookup(name, caller)
+        if node is None:
+            return None
+        top = context.symbols.top
+        entry = found[1] if found else None
+        source = entry.source if isinstance(entry, Value) else None
+        try:
+            known = constant_of(node)
+        except NotConstantError:
+            return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
+        if isinstance(node, Reference) and node.symbol.role == "data":
+            symbol = Symbol(name, "data", node.symbol.value, known, MAP)
+            context.file.symbols.append(symbol)
+            top.entries[name] = Value(refer(symbol))
+            return refer(symbol)
+        if isinstance(known, dict | list):
+            return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
+        if source is not None and context.symbols.top.file is context.file:
+            top.entries[name] = source
+            return evaluator.lookup(name, context)
+        symbol = Symbol(name, "variable", as_parts(constant(known)) or ("",), known, kind_of(constant(known)))
+        context.file.symbols.append(symbol)
+        top.entries[name] = Value(refer(symbol))
+        return refer(symbol)
+
+    def _as_parameter(
+        self, name: str, node: ast.expr, context: Context, find: Callable[[Context, Evaluator], ast.expr]
+    ) -> ast.expr:
+        module = self._by_file[context.file]
+        symbol = Symbol(name, "parameter", kind=kind_of(node))
+        context.file.symbols.append(symbol)
+        module.imports[name] = find
+        context.symbols.top.entries[name] = Value(refer(symbol))
+        return refer(symbol)
+
+    def require_file(self, parts: Parts, context: Context) -> None:
+        """Refuse an argument that names a file of data and is empty: a spec reads its data in any case."""
+        if len(parts) != 1 or not isinstance(parts[0], Reference):
+            return
+        symbol = parts[0].symbol
+        called = next((one for one in context.calls if isinstance(one, Called)), None)
+        if not symbol.is_argument and called is not None and symbol.wish in called.arguments:
+            parts = called.arguments[symbol.wish]
+            if parts in ((), ("",)):
+                raise NotConstantError(frozenset((symbol,)))
+            self.require_file(parts, called.context)
+        if symbol.is_argument and symbol.constant is UNSET and symbol.value in ((), ("",)):
+            raise NotConstantError(frozenset((symbol,)))
+
+    def argument(self, name: str, context: Context, evaluator: Evaluator) -> ast.expr:
+        """Return an argument of the robot; in a module, a parameter that gets it."""
+        if name not in evaluator.arguments:
+            if name not in evaluator.given:
+                raise CannotTranslateError(f"the argument '{name}', which is not declared before; give {name}:=VALUE")
+            evaluator.declare(name, None)
+        symbol = evaluator.arguments[name]
+        if symbol.constant is not UNSET:
+            return as_expression((str(evaluator.path_text(symbol.value or ())),))
+        module = self._by_file.get(context.file)
+        if module is None:
+            return _as_given(symbol)
+        key = f"$(arg {name})"
+        top = context.symbols.top
+        if isinstance(known := top.entries.get(key), Value):
+            return _as_given(known.node.symbol) if isinstance(known.node, Reference) else known.node
+        taken = {one.wish for one in context.file.symbols}
+        own = Symbol(name if name not in taken else f"{name}_argument", "parameter", kind=symbol.kind)
+        own.choices = symbol.choices
+        context.file.symbols.append(own)
+        module.imports[own.wish] = lambda where, by: by.calls.argument(name, where, by)
+        top.entries[key] = Value(refer(own))
+        return _as_given(own)
+
+
+def no_module(file: FileDraft, error: NotConstantError) -> NoModuleError:
+    """Return the reason why a module cannot be written, with the parameters that need one value."""
+    fixed = {one.wish for one in sources_of(error.symbols) if one in file.symbols and one.role == "parameter"}
+    assert file.root is not None, "a module is a macro"
+    return NoModuleError(file.root, f"something in it depends on {error}", frozenset(fixed))
+
+
+def _require_known_blocks(file: FileDraft) -> None:
+    """Refuse a module in which a block of a call is needed anywhere but as the origin of the attaching joint."""
+    attached = file.attachment.content if file.attachment else []
+    for one in walk(file.content):
+        if isinstance(one, Element) and one.calls[:1] == ("block",) and one not in attached:
+            raise CannotTranslateError("it inserts a block of its call")
+
+
+def _as_given(symbol: Symbol) -> Reference:
+    """Return a reference to an argument that is written as its user gave it."""
+    node = refer(symbol)
+    node.is_as_given = True
+    return node
+
+
+def _looked_up(name: str, context: Context, evaluator: Evaluator) -> ast.expr:
+    node = evaluator.lookup(name, context)
+    if node is None:
+        raise CannotTranslateError(f"the property '{name}', which is not defined,")
+    return node
+
+
+def _unquoted(text: str) -> str:
+    if len(text) >= 2 and text[0] == text[-1] and text[0] in "'\"":
+        return text[1:-1] if text[0] == '"' else text
+    return text
+
+
+def _find(name: str, context: Context) -> tuple[Macro | None, Table[Macro], Table[Property]]:
+    found = context.macros.get(name)
+    if found is not None:
+        return found, context.macros, context.symbols
+    *spaces, last = name.split(".")
+    macros: Table[Macro] | None = context.macros
+    symbols: Table[Property] | None = context.symbols
+    for space in spaces:
+        macros = macros.namespace(space) if macros else None
+        symbols = symbols.namespace(space) if symbols else None
+    if not spaces or macros is None or symbols is None:
+        return None, context.macros, context.symbols
+    return macros.get(last), macros, symbols

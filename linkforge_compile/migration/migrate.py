@@ -1,0 +1,265 @@
+"""Migrate a xacro: expand it twice, to learn what its macros are and to write them as modules."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import chain, count
+from pathlib import Path
+from typing import TypedDict
+
+from linkforge_compile.migration.attachment import find_attachment
+from linkforge_compile.migration.calls import Called, Calls, Plan, no_module
+from linkforge_compile.migration.combinations import domain_of
+from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.expand import Expander
+from linkforge_compile.migration.files import FileMaker
+from linkforge_compile.migration.inertia import Place
+from linkforge_compile.migration.materials import materials_in
+from linkforge_compile.migration.sources import Sources
+from linkforge_compile.migration.symbols import (
+    MAP,
+    UNKNOWN,
+    UNSET,
+    CannotTranslateError,
+    NoModuleError,
+    NotConstantError,
+    Symbol,
+    constant,
+    is_literal,
+    kind_of,
+    literal_of,
+    same_text,
+    sources_of,
+    symbols_of,
+    value_of,
+)
+from linkforge_compile.migration.template import Content, Element, FileDraft, Spec
+from linkforge_compile.source.xml_tree import XmlElement
+
+_MOST_ROUNDS = 20
+
+
+@dataclass
+class Migration:
+    """The specs of a xacro by their file names, the robot first, and what is known of how they were made."""
+
+    main: str
+    files: dict[str, str]
+    expander: Expander
+    calls: Calls
+    specs: dict[FileDraft, Spec]
+    pinned: frozenset[str]
+    inline: dict[XmlElement, str]
+    """Why a macro is no module, by its body."""
+
+    @property
+    def modules(self) -> dict[XmlElement, FileDraft]:
+        """The modules that something uses, by the bodies of their macros."""
+        return {body: module.file for body, module in self.calls.modules.items() if module.file in self.specs}
+
+    @property
+    def names(self) -> dict[str, str]:
+        """The parameters of the robot by the arguments that they were."""
+        robot = self.specs[self.expander.robot]
+        return {name: robot.names[symbol] for name, symbol in self.expander.arguments.items()}
+
+    @property
+    def domains(self) -> dict[str, tuple[str, ...]]:
+        """The values of each argument for which the specs are proved, the given one first."""
+        expander = self.expander
+        return {
+            name: domain_of(symbol, expander.given.get(name), _default(symbol))
+            for name, symbol in expander.arguments.items()
+        }
+
+
+def _default(symbol: Symbol) -> str | None:
+    """Return the default of an argument as its text; None if there is none, or it depends on others."""
+    if symbol.value is None or not is_literal(symbol.value):
+        literal = literal_of(value_of(symbol.value)) if symbol.value else UNSET
+        return None if literal is UNSET else str(literal)
+    return "".join(map(str, symbol.value))
+
+
+class Options(TypedDict):
+    """The options of FileMaker."""
+
+    keeps_raw: bool
+    computed: frozenset[Place]
+    packages: Mapping[str, str]
+    folder: Path
+
+
+@dataclass
+class Settled:
+    """What is known before: why macros are no modules, by their bodies, and arguments that have one value."""
+
+    inline: dict[XmlElement, str] = field(default_factory=dict)
+    pinned: frozenset[str] = frozenset()
+    keeps_raw: bool = False
+    """Whether parts that are valid for some outcomes of conditions only are kept for others, as raw XML."""
+    computed: frozenset[Place] = frozenset()
+    """The links whose inertia is computed of their shapes."""
+
+
+def migrate(
+    given: Mapping[str, str],
+    sources: Sources,
+    settled: Settled,
+    head: str = "",
+) -> Migration:
+    """Return the specs that a xacro becomes; `head` begins that of the robot.
+
+    Raises:
+        CannotTranslateError: if it cannot be translated at all.
+
+    """
+    inline, pinned = dict(settled.inline), settled.pinned
+    for _ in range(_MOST_ROUNDS):
+        try:
+            return _migrated(sources, given, replace(settled, inline=inline, pinned=pinned), head)
+        except NotConstantError as error:
+            names = frozenset(symbol.wish for symbol in sources_of(error.symbols) if symbol.is_argument) - pinned
+            if not names:
+                raise CannotTranslateError(f"a value that depends on {error}") from None
+            pinned |= names
+    raise CannotTranslateError("no form of it in the language was found")
+
+
+def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head: str) -> Migration:
+    inline, pinned = settled.inline, settled.pinned
+    first = Calls(Plan())
+    Expander(sources, given, pinned, first).expand()
+    fixed: dict[XmlElement, frozenset[str]] = {}
+    while True:
+        plan = _plan(first.called, inline)
+        plan.fixed = fixed
+        calls = Calls(plan)
+        expander = Expander(sources, given, pinned, calls)
+        try:
+            robot = expander.expand()
+            return _written(robot, expander, calls, settled, head)
+        except NoModuleError as error:
+            body = error.body
+            same = _constant(error.fixed - fixed.get(body, frozenset()), body, first.called)
+            if same:
+                fixed[body] = fixed.get(body, frozenset()) | same
+            else:
+                inline[body] = error.reason
+
+
+def _constant(names: Iterable[str], body: XmlElement, called: list[Called]) -> frozenset[str]:
+    """Return the parameters of a macro that have one value in all calls, which depends on no name."""
+    calls = [one for one in called if one.macro.body is body]
+    values = {name: [one.arguments.get(name) for one in calls] for name in names}
+    return frozenset(
+        name
+        for name, found in values.items()
+        if all(one is not None and not symbols_of(one) and same_text(one, found[0] or ()) for one in found)
+    )
+
+
+def _body_of(module: FileDraft) -> XmlElement:
+    assert module.root is not None, "a module is a macro"
+    return module.root
+
+
+def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
+    """Return which macros become modules: those of which each call is one tree of links."""
+    by_body: dict[XmlElement, list[Called]] = {}
+    for one in called:
+        by_body.setdefault(one.macro.body, []).append(one)
+    plan = Plan(single=frozenset(body for body, calls in by_body.items() if len(calls) == 1))
+    for body, calls in by_body.items():
+        if body in inline:
+            continue
+        try:
+            if any(one.context.is_inside for one in calls):
+                raise CannotTranslateError("it is a part of elements")
+            attached = {_attachment(one.content) is not None for one in calls}
+            if len(attached) > 1:
+                raise CannotTranslateError("some of its calls attach it to a link and others do not")
+        except CannotTranslateError as error:
+            inline[body] = error.reason
+            continue
+        plan.modules[body] = _kinds(calls)
+    return plan
+
+
+def _attachment(content: list[Content]) -> Element | None:
+    try:
+        return find_attachment(content)
+    except NotConstantError:
+        raise CannotTranslateError("the joint that attaches it depends on a condition") from None
+
+
+def _kinds(calls: list[Called]) -> dict[str, str]:
+    """Return the kinds of the parameters of a macro by their values."""
+    kinds: dict[str, set[str]] = {}
+    for one in calls:
+        for name, parts in one.arguments.items():
+            kinds.setdefault(name, set()).add(_kind(value_of(parts)))
+    return {name: next(iter(found)) for name, found in kinds.items() if len(found) == 1}
+
+
+def _kind(node: ast.expr) -> str:
+    """Return the kind of a value, which for a part of data is that of what the file has."""
+    kind = kind_of(node)
+    if kind != UNKNOWN:
+        return kind
+    try:
+        value = constant_of(node)
+    except NotConstantError:
+        return UNKNOWN
+    return MAP if isinstance(value, dict) else kind_of(constant(value))
+
+
+def _written(robot: FileDraft, expander: Expander, calls: Calls, settled: Settled, head: str) -> Migration:
+    robot.stem = stem_of(expander.sources.main)
+    specs: dict[FileDraft, Spec] = {}
+    stems = {robot.stem}
+    for file in (module.file for module in calls.modules.values()):
+        endings = chain(("", "_macro"), (f"_{number}" for number in count(2)))
+        file.stem = next(stem for ending in endings if (stem := f"{file.name}{ending}") not in stems)
+        stems.add(file.stem)
+    options: Options = {
+        "keeps_raw": settled.keeps_raw,
+        "computed": settled.computed,
+        "packages": expander.sources.packages,
+        "folder": expander.sources.spec_folder,
+    }
+    materials = materials_in(robot.content)
+    # Modules that others use come first: what they need decides what these give.
+    for module in _inner_first(expander):
+        try:
+            specs[module] = FileMaker(module, specs, materials, **options).spec("")
+        except CannotTranslateError as error:
+            raise NoModuleError(_body_of(module), error.reason) from None
+        except NotConstantError as error:
+            raise no_module(module, error) from None
+    specs[robot] = FileMaker(robot, specs, {}, **options).spec(head)
+    files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
+    return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, settled.pinned, settled.inline)
+
+
+def _inner_first(expander: Expander) -> list[FileDraft]:
+    made: list[FileDraft] = []
+
+    def add(file: FileDraft) -> None:
+        for use in file.uses():
+            add(use.module)
+        if file not in made and file.is_module:
+            made.append(file)
+
+    add(expander.robot)
+    return made
+
+
+def stem_of(path: Path) -> str:
+    """Return the name of the spec of a xacro, without its ending."""
+    name = path.name
+    for suffix in (".xacro", ".urdf", ".xml"):
+        name = name.removesuffix(suffix)
+    return name

@@ -1,0 +1,172 @@
+"""Migrate a xacro and prove it; where the proof fails, macros are written in place, and then the xacro is kept."""
+
+from __future__ import annotations
+
+import shlex
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics.codes.importing import XACRO_KEPT
+from linkforge_compile.load import Loader
+from linkforge_compile.migration.combinations import combinations_of
+from linkforge_compile.migration.inertia import computed_inertias
+from linkforge_compile.migration.kept import kept_spec, parameter_names
+from linkforge_compile.migration.migrate import Migration, Settled, migrate, stem_of
+from linkforge_compile.migration.proof import Comparison, Prover
+from linkforge_compile.migration.report import Figures, faults_of, figures_of, notes_of
+from linkforge_compile.migration.sources import Sources
+from linkforge_compile.migration.symbols import CannotTranslateError
+from linkforge_compile.pipeline import parameters_of
+from linkforge_compile.source.characters import on_one_line
+
+_MOST_COMPILED = 8
+"""For how many combinations of arguments an inertia is compared with that of the shapes."""
+
+
+@dataclass
+class Proved:
+    """The specs of a xacro by their file names, with their proof; no `figures` if the xacro is used as it is."""
+
+    main: str
+    files: Mapping[str, str]
+    comparisons: Sequence[Comparison]
+    diagnostics: Sequence[Diagnostic]
+    figures: Figures | None = None
+
+    @property
+    def is_equal(self) -> bool:
+        """Whether what was compared is equal, and something was."""
+        equal = [one for one in self.comparisons if one.is_equal]
+        return bool(equal) and all(one.is_equal or one.refused for one in self.comparisons)
+
+
+@dataclass
+class Migrator:
+    """Migrates one xacro into a folder, in which relative paths of the specs start."""
+
+    main: Path
+    given: Mapping[str, str]
+    folder: Path
+    loader: Loader
+    sink: Diagnostics
+
+    def __post_init__(self) -> None:
+        self.sources = Sources(self.main, self.loader, self.sink, self.folder)
+
+    def run(self) -> Proved:
+        """Return the specs with the fewest macros in place that are proved."""
+        prover = Prover(self.main, self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
+        settled = Settled()
+        migration = self._migrated(settled)
+        if isinstance(migration, CannotTranslateError):
+            return self._kept(migration, prover)
+        comparisons = self.prove(migration, prover)
+        if _failures(comparisons):
+            other = self._migrated(Settled(keeps_raw=True))
+            if isinstance(other, Migration):
+                found = self.prove(other, prover)
+                if _failures(found) < _failures(comparisons):
+                    settled, migration, comparisons = Settled(keeps_raw=True), other, found
+        for body in list(migration.modules):
+            if _failures(comparisons) == 0:
+                break
+            reason = f"as a module it is another robot, {_first_failure(comparisons)}"
+            tried = replace(settled, inline={**settled.inline, body: reason})
+            other = self._migrated(tried)
+            if isinstance(other, CannotTranslateError):
+                continue
+            found = self.prove(other, prover)
+            if _failures(found) < _failures(comparisons):
+                settled, migration, comparisons = tried, other, found
+        if _failures(comparisons) and migration.calls.kept:
+            reason = next(iter(migration.calls.kept.values()))
+            return self._kept(CannotTranslateError(reason), prover)
+        migration, comparisons = self._with_computed_inertia(migration, comparisons, settled, prover)
+        diagnostics = [*notes_of(migration), *faults_of(comparisons)]
+        figures = figures_of(migration, comparisons)
+        return Proved(migration.main, migration.files, comparisons, diagnostics, figures)
+
+    def _with_computed_inertia(
+        self, migration: Migration, comparisons: list[Comparison], settled: Settled, prover: Prover
+    ) -> tuple[Migration, list[Comparison]]:
+        """Return the specs without the inertias that are those of the shapes."""
+        if _failures(comparisons):
+            return migration, comparisons
+        combinations = combinations_of(migration.domains)[:_MOST_COMPILED]
+        with self._in_files(migration.files) as folder:
+            robots = prover.compiled(folder / migration.main, migration.names, combinations)
+            computed = computed_inertias(robots)
+        if not computed:
+            return migration, comparisons
+        other = self._migrated(replace(settled, computed=computed))
+        found = self.prove(other, prover) if isinstance(other, Migration) else []
+        if isinstance(other, Migration) and not _failures(found):
+            return other, found
+        return migration, comparisons
+
+    @contextmanager
+    def _in_files(self, files: Mapping[str, str]) -> Iterator[Path]:
+        """Write specs into a temporary folder beside their own, so that their paths lead where they will."""
+        parent = self.folder.absolute().parent
+        parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=parent, prefix=".migrate") as temporary:
+            folder = Path(temporary)
+            for name, text in files.items():
+                (folder / name).write_text(text, "utf-8")
+            yield folder
+
+    def verify(self) -> Proved:
+        """Compare the specs in the folder, which may have been changed since, with the xacro."""
+        prover = Prover(self.main, self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
+        migration = self._migrated(Settled())
+        if isinstance(migration, CannotTranslateError):
+            return self._kept(migration, prover)
+        spec = self.folder / migration.main
+        comparisons = prover.compare(spec, migration.names, combinations_of(migration.domains))
+        figures = figures_of(migration, comparisons)
+        return Proved(migration.main, migration.files, comparisons, list(faults_of(comparisons)), figures)
+
+    def _migrated(self, settled: Settled) -> Migration | CannotTranslateError:
+        try:
+            return migrate(self.given, self.sources, settled, self._head())
+        except CannotTranslateError as error:
+            return error
+
+    def _head(self) -> str:
+        from linkforge_compile.importers.origin import relative_path
+
+        options = [f"{name}:={value}" for name, value in self.given.items()]
+        for name, place in self.loader.packages.items():
+            options += ("--package", f"{name}={relative_path(self.folder, place)}")
+        command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", ".")
+        return f"# {on_one_line(shlex.join(command))}\n\n"
+
+    def prove(self, migration: Migration, prover: Prover) -> list[Comparison]:
+        """Compare the specs, written into a temporary folder beside their own, for all combinations."""
+        with self._in_files(migration.files) as folder:
+            return prover.compare(folder / migration.main, migration.names, combinations_of(migration.domains))
+
+    def _kept(self, error: CannotTranslateError, prover: Prover) -> Proved:
+        """Return a spec that uses the xacro as it is, with the arguments as parameters."""
+        report = XACRO_KEPT.at(error.where, reason=error.reason)
+        faults = [one for one in self.sink.sorted() if one.severity is Severity.ERROR and error.where is None]
+        listing, _ = parameters_of(self.main, packages=self.loader.packages, allow_outside=True)
+        known = {one.name: one.default or "" for one in listing.parameters} if listing else {}
+        text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head())
+        name = f"{stem_of(self.main)}.robot.yaml"
+        with self._in_files({name: text}) as folder:
+            comparisons = prover.compare(folder / name, parameter_names(known), [dict(self.given)])
+        return Proved(name, {name: text}, comparisons, [*faults, report, *faults_of(comparisons)])
+
+
+def _first_failure(comparisons: Sequence[Comparison]) -> str:
+    failed = next(one for one in comparisons if not (one.is_equal or one.refused))
+    return failed.fault or failed.differences[0]
+
+
+def _failures(comparisons: Sequence[Comparison]) -> int:
+    return sum(not (one.is_equal or one.refused) for one in comparisons)

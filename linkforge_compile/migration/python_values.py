@@ -1,0 +1,156 @@
+"""Compute an expression of Python of which all names are known, with what of Python changes nothing."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from linkforge_compile.migration.constants import FUNCTIONS, OPERATORS
+
+_METHODS = frozenset(
+    (
+        *("split", "rsplit", "strip", "lstrip", "rstrip", "replace", "startswith", "endswith", "lower", "upper"),
+        *("join", "get", "keys", "values", "items", "index", "count", "capitalize", "title", "isdigit", "find"),
+    )
+)
+_MOST_STEPS = 20_000
+_MOST_ITEMS = 10_000
+
+
+def _range(*bounds: int) -> list[int]:
+    found = range(*bounds)
+    if len(found) > _MOST_ITEMS:
+        raise UnknownValueError
+    return list(found)
+
+
+_CALLED: Mapping[str, Callable[..., Any]] = {
+    **FUNCTIONS,
+    "range": _range,
+    **{one.__name__: one for one in (list, dict, tuple, sorted, sum, any, all, bool, zip, enumerate, reversed, set)},
+}
+_NAMESPACES = ("math", "python", "xacro")
+
+
+class UnknownValueError(Exception):
+    """The expression needs something that is not known, or that is not computed."""
+
+
+class PythonValues:
+    """Computes expressions; `lookup` gives the value of a name or raises."""
+
+    def __init__(self, lookup: Callable[[str], Any]) -> None:
+        self._lookup = lookup
+        self._steps = 0
+
+    def value(self, tree: ast.expr) -> Any:
+        """Return the value of an expression.
+
+        Raises:
+            UnknownValueError: if it cannot be computed.
+
+        """
+        try:
+            return self._value(tree, {})
+        except (ArithmeticError, TypeError, ValueError, LookupError, AttributeError, MemoryError):
+            raise UnknownValueError from None
+
+    def _value(self, node: ast.expr, local: Mapping[str, Any]) -> Any:
+        self._steps += 1
+        if self._steps > _MOST_STEPS:
+            raise UnknownValueError
+        match node:
+            case ast.Constant(value=value):
+                return value
+            case ast.Name(id=name):
+                return local[name] if name in local else self._lookup(name)
+            case ast.List(elts=items):
+                return self._values(items, local)
+            case ast.Tuple(elts=items):
+                return tuple(self._values(items, local))
+            case ast.Dict(keys=keys, values=values):
+                present = [key for key in keys if key is not None]
+                return dict(zip(self._values(present, local), self._values(values, local), strict=True))
+            case ast.ListComp(elt=item, generators=generators) | ast.GeneratorExp(elt=item, generators=generators):
+                return [self._value(item, one) for one in self._rounds(generators, local)]
+            case ast.Subscript() | ast.Attribute():
+                return self._part(node, local)
+            case ast.Call(keywords=[]):
+                return self._call(node, local)
+        return self._operation(node, local)
+
+    def _values(self, nodes: Iterable[ast.expr], local: Mapping[str, Any]) -> list[Any]:
+        return [self._value(node, local) for node in nodes]
+
+    def _operation(self, node: ast.expr, local: Mapping[str, Any]) -> Any:
+        match node:
+            case ast.UnaryOp(op=operation, operand=operand):
+                return OPERATORS[type(operation)](self._value(operand, local))
+            case ast.BinOp(left=left, op=operation, right=right):
+                return self._calculate(operation, self._value(left, local), self._value(right, local))
+            case ast.BoolOp(op=operation, values=values):
+                return self._boolean(operation, values, local)
+            case ast.Compare(left=left, ops=operations, comparators=others):
+                sides = self._values((left, *others), local)
+                pairs = zip(sides, operations, sides[1:], strict=False)
+                return all(OPERATORS[type(each)](one, other) for one, each, other in pairs)
+            case ast.IfExp(test=test, body=body, orelse=orelse):
+                return self._value(body if self._value(test, local) else orelse, local)
+        raise UnknownValueError
+
+    def _part(self, node: ast.Subscript | ast.Attribute, local: Mapping[str, Any]) -> Any:
+        match node:
+            case ast.Subscript(value=whole, slice=ast.Slice() as part):
+                ends = (part.lower, part.upper, part.step)
+                return self._value(whole, local)[slice(*(end and self._value(end, local) for end in ends))]
+            case ast.Subscript(value=whole, slice=index):
+                return self._value(whole, local)[self._value(index, local)]
+            case ast.Attribute(value=ast.Name(id=space), attr=name) if space in _NAMESPACES:
+                return self._lookup(name)
+            case ast.Attribute(value=whole, attr=name):
+                return self._value(whole, local)[name]
+
+    def _calculate(self, operation: ast.operator, left: Any, right: Any) -> Any:
+        if isinstance(operation, ast.Pow) and not (abs(left) < 1e9 and abs(right) < 100):
+            raise UnknownValueError
+        if isinstance(operation, ast.Mult) and not isinstance(left, int | float):
+            raise UnknownValueError
+        if isinstance(operation, ast.Mod) and isinstance(left, str):
+            return left % right
+        return OPERATORS[type(operation)](left, right)
+
+    def _boolean(self, operation: ast.boolop, values: list[ast.expr], local: Mapping[str, Any]) -> Any:
+        value: Any = None
+        for each in values:
+            value = self._value(each, local)
+            if bool(value) is isinstance(operation, ast.Or):
+                return value
+        return value
+
+    def _rounds(self, generators: list[ast.comprehension], local: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+        rounds = [dict(local)]
+        for generator in generators:
+            if not isinstance(generator.target, ast.Name):
+                raise UnknownValueError
+            name = generator.target.id
+            rounds = [{**one, name: item} for one in rounds for item in self._value(generator.iter, one)]
+            rounds = [one for one in rounds if all(self._value(test, one) for test in generator.ifs)]
+            if len(rounds) > _MOST_ITEMS:
+                raise UnknownValueError
+        return list(rounds)
+
+    def _call(self, node: ast.Call, local: Mapping[str, Any]) -> Any:
+        arguments = [self._value(argument, local) for argument in node.args]
+        match node.func:
+            case ast.Name(id=name) if name in _CALLED:
+                return _CALLED[name](*arguments)
+            case ast.Attribute(value=ast.Name(id=space), attr=name) if space in _NAMESPACES and name in _CALLED:
+                return _CALLED[name](*arguments)
+            case ast.Attribute(value=whole, attr=name) if name in _METHODS:
+                owner = self._value(whole, local)
+                if type(owner) not in (str, list, dict, tuple):
+                    raise UnknownValueError
+                found = getattr(owner, name)(*arguments)
+                return list(found) if name in ("keys", "values", "items") else found
+        raise UnknownValueError

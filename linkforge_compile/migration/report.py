@@ -1,0 +1,128 @@
+"""What a migration translated, what it did not and why."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.importing import (
+    ARGUMENT_PINNED,
+    MACRO_IN_PLACE,
+    MACRO_KEPT,
+    MIGRATION_DIFFERS,
+    MIGRATION_UNPROVED,
+)
+from linkforge_compile.migration.combinations import Arguments
+from linkforge_compile.migration.migrate import Migration
+from linkforge_compile.migration.proof import Comparison
+
+_MOST_DIFFERENCES = 5
+
+
+class Figures(NamedTuple):
+    """The numbers of a migration.
+
+    Of the macros that are called, `modules` are files, `in_place` are written where they are called without raw XML.
+    """
+
+    macros: int
+    modules: int
+    in_place: int
+    kept: int
+    raw_macros: int
+    properties: int
+    variables: int
+    conditions: int
+    decided: int
+    raw: int
+    files_before: int
+    lines_before: int
+    files_after: int
+    lines_after: int
+    combinations: int
+    equal: int
+    unproved: int
+
+    def as_json(self) -> dict[str, Any]:
+        return self._asdict()
+
+
+def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figures:
+    """Return the numbers of a migration and its proof."""
+    expander = migration.expander
+    called = {one.macro.body for one in migration.calls.called}
+    modules = migration.modules
+    raw = [file for file in modules.values() if migration.specs[file].raw]
+    elements = [one for document in expander.sources.documents.values() for one in document.root.walk()]
+    tags = Counter(one.tag for one in elements)
+    texts = [document.root.file.text for document in expander.sources.documents.values()]
+    kept = sum(1 for spec in migration.specs.values() for symbol in spec.used if symbol.role != "parameter")
+    return Figures(
+        macros=len(called),
+        modules=len(modules),
+        in_place=len(called) - len(modules) - len(migration.calls.kept),
+        kept=len(migration.calls.kept),
+        raw_macros=len(raw),
+        properties=tags["xacro:property"],
+        variables=kept,
+        conditions=tags["xacro:if"] + tags["xacro:unless"],
+        decided=expander.decided,
+        raw=sum(len(spec.raw) for spec in migration.specs.values()),
+        files_before=len(texts),
+        lines_before=sum(text.count("\n") for text in texts),
+        files_after=len(migration.files),
+        lines_after=sum(text.count("\n") for text in migration.files.values()),
+        combinations=len(comparisons),
+        equal=sum(one.is_equal for one in comparisons),
+        unproved=sum(one.refused is not None for one in comparisons),
+    )
+
+
+def lines_of(figures: Figures) -> Iterator[str]:
+    """Yield the lines of a report."""
+    proved = f"{figures.equal} of {_counted(figures.combinations, 'combination')} of its arguments are the same robot"
+    yield f"proof       {proved}" + (f", {figures.unproved} cannot be compared" if figures.unproved else "")
+    kept = f", {figures.kept} stay in xacro" if figures.kept else ""
+    macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
+    yield f"macros      {figures.macros}: {macros}"
+    yield f"properties  {figures.properties}: {_counted(figures.variables, 'variable')} and data, the others in place"
+    yield f"conditions  {figures.conditions}: {figures.decided} decided in place, the others in the specs"
+    yield f"raw XML     {_counted(figures.raw, 'place')}"
+    before = f"{figures.lines_before} in {_counted(figures.files_before, 'file')}"
+    yield f"lines       {before} before, {figures.lines_after} in {_counted(figures.files_after, 'file')} after"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def notes_of(migration: Migration) -> Iterator[Diagnostic]:
+    """Yield why macros are no modules, and which arguments have one value."""
+    called = {one.macro.body: one.macro for one in migration.calls.called}
+    for body, reason in migration.inline.items():
+        if body in called and body not in migration.calls.kept:
+            yield MACRO_IN_PLACE.at(body.span, name=called[body].name, reason=reason)
+    for body, reason in migration.calls.kept.items():
+        yield MACRO_KEPT.at(body.span, name=called[body].name, reason=reason)
+    for name in sorted(migration.pinned):
+        symbol = migration.expander.arguments[name]
+        yield ARGUMENT_PINNED.at(symbol.where, name=name, value=str(symbol.constant))
+
+
+def faults_of(comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
+    """Yield what differs, and what was not compared."""
+    for one in comparisons:
+        arguments = _words(one.arguments)
+        if one.refused is not None:
+            yield MIGRATION_UNPROVED.at(None, arguments=arguments, reason=one.refused)
+        elif one.fault is not None:
+            yield MIGRATION_DIFFERS.at(None, arguments=arguments, text=one.fault)
+        else:
+            for text in one.differences[:_MOST_DIFFERENCES]:
+                yield MIGRATION_DIFFERS.at(None, arguments=arguments, text=text)
+
+
+def _words(arguments: Arguments) -> str:
+    return " ".join(f"{name}:={value}" for name, value in arguments.items()) or "no arguments"

@@ -1,0 +1,132 @@
+"""Read the files of a xacro, and find what `$(find PACKAGE)` and relative paths in them name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from glob import glob
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.importers.origin import relative_path
+from linkforge_compile.importers.xml import read_xml
+from linkforge_compile.load import ImportSite, Loader
+from linkforge_compile.migration.symbols import CannotTranslateError, UndefinedError
+from linkforge_compile.paths import find_package, folders_for_xacro
+from linkforge_compile.source import SourceFile
+from linkforge_compile.source.xml_tree import XmlDocument
+from linkforge_compile.syntax import Tags, read_data
+
+_WILDCARDS = "*[?"
+
+
+class Sources:
+    """The files of one xacro, each parsed once, so that a macro that is included twice is one macro."""
+
+    def __init__(self, main: Path, loader: Loader, sink: Diagnostics, spec_folder: Path | None = None) -> None:
+        """`spec_folder` is that of the specs, in which their relative paths start; None for that of the file."""
+        self.main, self.loader, self.sink = main, loader, sink
+        self.spec_folder = spec_folder or main.parent
+        self._found: dict[str, Path] = {}
+        self._documents: dict[Path, XmlDocument] = {}
+        self._data: dict[Path, object] = {}
+
+    @property
+    def documents(self) -> Mapping[Path, XmlDocument]:
+        """The files that were read."""
+        return self._documents
+
+    @property
+    def data_files(self) -> tuple[Path, ...]:
+        """The files of data that were read."""
+        return tuple(self._data)
+
+    def open(self, path: Path) -> XmlDocument:
+        """Return a file as elements.
+
+        Raises:
+            CannotTranslateError: if it cannot be read.
+
+        """
+        key = path.absolute()
+        if key not in self._documents:
+            site = ImportSite(str(path), None)
+            file = self.loader.open_xml(path, self.sink, site)
+            document = read_xml(file, self.sink) if file else None
+            if document is None:
+                raise CannotTranslateError(f"'{path}' cannot be read")
+            self._documents[key] = document
+        return self._documents[key]
+
+    def find(self, package: str) -> Path:
+        """Return the folder of a package."""
+        declared, roots = self.loader.packages, self.loader.roots
+        folder = next(folders_for_xacro(package, declared, self.main.parent, roots), None)
+        if folder is None:
+            raise UndefinedError(f"no package named '{package}'; give --package {package}=FOLDER")
+        self._found[package] = folder.absolute()
+        return folder.absolute()
+
+    @property
+    def packages(self) -> dict[str, str]:
+        """The packages that a spec does not find from its folder, each with its path from there."""
+        loader, start = self.loader, self.spec_folder
+        return {
+            name: relative_path(start, folder)
+            for name, folder in self._found.items()
+            if find_package(name, loader.packages, start, loader.roots) is None
+        }
+
+    def included(self, path: str, folder: Path) -> Iterator[Path]:
+        """Yield the files that an `<xacro:include>` names, of which relative paths start in a folder."""
+        whole = folder / path
+        if any(letter in path for letter in _WILDCARDS):
+            yield from map(Path, sorted(glob(str(whole))))  # noqa: PTH207  # the pattern may be absolute
+        else:
+            yield whole
+
+    def data(self, path: Path) -> Any:
+        """Return the contents of a YAML file as xacro reads them."""
+        key = path.absolute()
+        if key not in self._data:
+            if not self.loader.roots.hold(path):
+                raise CannotTranslateError(f"'{path}' may not be read; see --allow-outside")
+            try:
+                self._data[key] = yaml.load(key.read_text("utf-8"), _DataLoader)
+            except (OSError, yaml.YAMLError) as error:
+                raise CannotTranslateError(f"'{path}' cannot be read: {error}") from None
+        return self._data[key]
+
+    def is_readable(self, path: Path) -> bool:
+        """Whether a spec can read a file of data: it refuses keys that are written twice, for example."""
+        sink = Diagnostics()
+        read_data(SourceFile(str(path), path.read_text("utf-8")), sink, _ANGLES)
+        return not sink.has_errors
+
+
+_ANGLES: Tags = {"!degrees": lambda node: node, "!radians": lambda node: node}
+"""The tags of numbers that a spec's data may have as well."""
+
+
+class _DataLoader(yaml.SafeLoader):
+    """PyYAML's safe loader with the units of xacro."""
+
+
+_UNITS = {
+    "!radians": 1.0,
+    "!degrees": 0.017453292519943295,
+    "!meters": 1.0,
+    "!millimeters": 0.001,
+    "!foot": 0.3048,
+    "!inches": 0.0254,
+}
+
+
+def _read_unit(loader: _DataLoader, node: yaml.ScalarNode) -> float:
+    return float(loader.construct_scalar(node)) * _UNITS[node.tag]
+
+
+for _tag in _UNITS:
+    _DataLoader.add_constructor(_tag, _read_unit)

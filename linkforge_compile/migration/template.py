@@ -1,0 +1,133 @@
+"""What a xacro expands to: elements whose values and presence depend on names of a spec."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeAlias
+
+from linkforge_compile.migration.symbols import Parts, Symbol
+from linkforge_compile.source.xml_tree import XmlElement
+
+
+@dataclass(eq=False)
+class Element:
+    """An element with texts for its attributes; `calls` are the calls of macros that it comes from, the inner last."""
+
+    tag: str
+    attributes: dict[str, Parts]
+    content: list[Content]
+    origin: XmlElement | None = None
+    calls: tuple[object, ...] = ()
+
+
+@dataclass(eq=False)
+class Choice:
+    """Content that exists if an expression is true."""
+
+    test: ast.expr
+    content: list[Content]
+    origin: XmlElement | None = None
+
+
+@dataclass(eq=False)
+class Text:
+    """A text between elements."""
+
+    parts: Parts
+
+
+@dataclass(eq=False)
+class Comment:
+    """A comment; `follows` if it ends the line of a tag."""
+
+    text: str
+    follows: bool = False
+
+
+@dataclass(eq=False)
+class Use:
+    """A use of a module, with the values of its parameters; `blocks` are those of its block parameters."""
+
+    module: FileDraft
+    arguments: dict[str, Parts]
+    origin: XmlElement | None = None
+    inline: list[Content] | None = None
+    """What the call expands to where it is."""
+    attachment: Element | None = None
+    """The joint among that which attaches the module."""
+
+
+@dataclass(eq=False)
+class Kept:
+    """A call of a macro that stays a macro of its xacro, with the values of its parameters.
+
+    `parent` and `origin` are what the entry of the module says of the joint that attaches it.
+    """
+
+    name: str
+    file: Path
+    arguments: dict[str, Parts]
+    parent: Parts | None
+    origin: Element | None
+    prefix: str | None
+
+
+Content: TypeAlias = "Element | Choice | Text | Comment | Use | Kept"
+
+
+@dataclass(eq=False)
+class FileDraft:
+    """A spec that is being made: a robot, or the module that a macro becomes.
+
+    `attachment` is the joint that the entry of a module writes, with its parent.
+    """
+
+    name: str
+    symbols: list[Symbol] = field(default_factory=list)
+    content: list[Content] = field(default_factory=list)
+    root: XmlElement | None = None
+    comment: str = ""
+    attachment: Element | None = None
+    robot_name: Parts = ()
+    robot_attributes: dict[str, Parts] = field(default_factory=dict)
+    stem: str = ""
+    """The name of its file, without the ending."""
+    is_module: bool = False
+
+    @property
+    def parameters(self) -> list[Symbol]:
+        return [symbol for symbol in self.symbols if symbol.role == "parameter"]
+
+    def uses(self) -> Iterator[Use]:
+        """Yield the uses of modules in this file."""
+        yield from (one for one in walk(self.content) if isinstance(one, Use))
+
+
+def walk(content: list[Content]) -> Iterator[Content]:
+    """Yield content and all that is in it, in its order."""
+    for one in content:
+        yield one
+        if isinstance(one, Element | Choice):
+            yield from walk(one.content)
+
+
+def elements_in(content: list[Content]) -> Iterator[Element]:
+    """Yield the elements of a content, also those that exist only if something is true, without those in elements."""
+    for one in content:
+        if isinstance(one, Choice):
+            yield from elements_in(one.content)
+        elif isinstance(one, Element):
+            yield one
+
+
+@dataclass
+class Spec:
+    """The text of a spec, the symbols that it declares by their names, and how many values are raw XML."""
+
+    text: str
+    names: Mapping[Symbol, str]
+    used: Mapping[Symbol, None]
+    raw: tuple[str, ...] = field(default=())

@@ -1,0 +1,195 @@
+"""Uses of modules in a file, and the joint that attaches a module to the file that uses it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from linkforge_compile.importers.origin import relative_path
+from linkforge_compile.migration.attachment import parts_of
+from linkforge_compile.migration.nodes import map_of, scalar
+from linkforge_compile.migration.parameters import type_of
+from linkforge_compile.migration.placeholders import Placeholders
+from linkforge_compile.migration.symbols import (
+    BOOLEAN,
+    NUMBER,
+    UNSET,
+    VECTOR,
+    Parts,
+    Reference,
+    Symbol,
+    as_parts,
+    is_literal,
+    literal_of,
+    value_of,
+)
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Kept, Spec, Use
+from linkforge_compile.migration.values import Values
+from linkforge_compile.migration.written import Writer, mark_vector
+from linkforge_compile.source import Span
+from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
+
+_MOUNT = "linkforge_mount"
+_CARRIER = "linkforge_use_"
+
+
+class Uses:
+    """The uses in one file. `content` is that of the file with a joint in the place of each use and of the mount."""
+
+    def __init__(
+        self,
+        draft: FileDraft,
+        placeholders: Placeholders,
+        writer: Writer,
+        modules: Mapping[FileDraft, Spec],
+        spec_folder: Path,
+    ) -> None:
+        self._spec_folder = spec_folder
+        self._draft, self._placeholders, self._writer, self._modules = draft, placeholders, writer, modules
+        self._uses: list[tuple[Use | Kept, tuple[ast.expr, ...]]] = []
+        self._carried: dict[str, YamlMap] = {}
+        self._mount: YamlEntry | None = None
+        self.content = self._without_uses(draft.content, ())
+
+    def _without_uses(self, content: list[Content], guards: tuple[ast.expr, ...]) -> list[Content]:
+        made: list[Content] = []
+        for one in content:
+            if isinstance(one, Use | Kept):
+                made += self._carrier(one, len(self._uses))
+                self._uses.append((one, guards))
+            elif isinstance(one, Choice):
+                made.append(Choice(one.test, self._without_uses(one.content, (*guards, one.test)), one.origin))
+            elif one is self._draft.attachment:
+                made.append(_attached_to(one, (_MOUNT,), None))
+            else:
+                made.append(one)
+        return made
+
+    def _carrier(self, use: Use | Kept, number: int) -> list[Content]:
+        """Return a joint that carries the parent and the origin of a use."""
+        if isinstance(use, Kept):
+            if use.parent is None:
+                return []
+            parent, origin = Element("parent", {"link": use.parent}, []), use.origin
+        elif use.attachment is None:
+            return []
+        else:
+            parts = {one.tag: one for one in use.attachment.content if isinstance(one, Element)}
+            parent, origin = parts["parent"], parts.get("origin")
+        child = Element("child", {"link": (f"{_CARRIER}{number}",)}, [])
+        content: list[Content] = [parent, child, *([origin] if origin else [])]
+        return [Element("joint", {"name": (f"{_CARRIER}{number}",), "type": ("fixed",)}, content)]
+
+    def names(self) -> frozenset[str]:
+        """Return the names of the links and joints of the modules."""
+        inline = [use.inline or [] for use, _ in self._uses if isinstance(use, Use)]
+        parts = (one for content in inline for one, _ in parts_of(content, ()))
+        return frozenset(
+            self._writer.name(one.attributes.get("name", ())) for one in parts if one.tag in ("link", "joint")
+        )
+
+    def take(self, sections: dict[str, dict[str, YamlEntry]]) -> None:
+        """Take the joints that carry something out of the sections."""
+        joints = sections["joints"]
+        for name in [name for name in joints if name.startswith(_CARRIER)]:
+            body = joints.pop(name).value
+            if isinstance(body, YamlMap):
+                self._carried[name] = body
+        for name, entry in list(joints.items()):
+            if isinstance(entry.value, YamlMap) and entry.value.text("parent") == _MOUNT:
+                self._mount = YamlEntry(entry.key, entry.value.without("parent", "origin"))
+                del joints[name]
+
+    def sections(self, values: Values, where: Span) -> dict[str, YamlNode]:
+        """Return the sections `mount` and `modules`."""
+        made: dict[str, YamlNode] = {}
+        if self._mount is not None:
+            made["mount"] = YamlMap({self._mount.name: self._mount}, where)
+        entries: dict[str, YamlNode | None] = {}
+        for number, (use, guards) in enumerate(self._uses):
+            name = self._entry_name(use, entries)
+            carried = self._carried.get(f"{_CARRIER}{number}")
+            own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, values, where)
+            entries[name] = self._entry(own, guards, carried, where)
+        if entries:
+            made["modules"] = map_of(entries, where)
+        return made
+
+    def _entry_name(self, use: Use | Kept, taken: Mapping[str, object]) -> str:
+        """Return the name of an entry: that in its arguments if there is one, else that of the macro."""
+        words = [use.arguments.get(key) for key in ("name", "prefix", "link_name", "side", "suffix")]
+        text = next((str(one[0]) for one in words if one and is_literal(one) and str(one[0]).strip()), "")
+        own = use.name if isinstance(use, Kept) else use.module.name
+        base = re.sub(r"\W+", "_", text).strip("_") or own
+        if text and base != own and len(base) < 3:
+            base = f"{base}_{own}"
+        name, number = base, 2
+        while name in taken:
+            name, number = f"{base}_{number}", number + 1
+        return name
+
+    def _kept(self, kept: Kept, values: Values, where: Span) -> dict[str, YamlNode | None]:
+        """Return what the entry of a macro that stays one has of its own."""
+        given = {name: values.value(parts or ("",), where, "") for name, parts in kept.arguments.items()}
+        return {
+            "use": scalar(relative_path(self._spec_folder, kept.file.absolute()), where),
+            "macro": scalar(kept.name, where),
+            "prefix": None if kept.prefix is None else scalar(kept.prefix, where),
+            "with": map_of(given, where) if given else None,
+        }
+
+    def _own(self, use: Use, values: Values, where: Span) -> dict[str, YamlNode | None]:
+        """Return what the entry of a module has of its own."""
+        spec = self._modules[use.module]
+        given: dict[str, YamlNode | None] = {}
+        by_wish = {symbol.wish: symbol for symbol in use.module.symbols if symbol.role == "parameter"}
+        for wish, parts in use.arguments.items():
+            symbol = by_wish.get(wish)
+            if symbol is None or symbol not in spec.used or _same_value(parts, symbol):
+                continue
+            if len(parts) == 1 and isinstance(parts[0], ast.expr):
+                if symbol.kind == VECTOR and isinstance(parts[0], Reference):
+                    mark_vector(parts[0].symbol, symbol.size)
+                self._writer.placements.append((parts[0], type_of(symbol)))
+            given[spec.names[symbol]] = self._placed(parts, symbol, values, where)
+        return {
+            "use": scalar(f"{use.module.stem}.robot.yaml", where),
+            "prefix": scalar("", where),
+            "with": map_of(given, where) if given else None,
+        }
+
+    def _entry(
+        self, own: Mapping[str, YamlNode | None], guards: tuple[ast.expr, ...], carried: YamlMap | None, where: Span
+    ) -> YamlMap:
+        """Return an entry with its condition, and the parent and origin that a joint has carried."""
+        when = None
+        if guards:
+            test = guards[0] if len(guards) == 1 else ast.BoolOp(op=ast.And(), values=list(guards))
+            text = self._placeholders.number(test)
+            when = YamlScalar(text, text, where)
+        joint = {key: carried.get(key) if carried else None for key in ("parent", "origin")}
+        first = {key: own[key] for key in ("use", "macro") if key in own}
+        return map_of({"when": when, **first, **joint, **own}, where)
+
+    def _placed(self, parts: Parts, symbol: Symbol, values: Values, where: Span) -> YamlNode:
+        """Return the value of a parameter."""
+        if symbol.kind in (BOOLEAN, NUMBER) and is_literal(parts):
+            parts = as_parts(value_of(parts)) or ("",)
+        return values.value(parts, where, symbol.kind)
+
+
+def _same_value(parts: Parts, symbol: Symbol) -> bool:
+    """Whether a text is the literal that is the default of a parameter."""
+    one, other = literal_of(value_of(parts)), UNSET if symbol.value is None else literal_of(value_of(symbol.value))
+    return one is not UNSET and other is not UNSET and type(one) is type(other) and one == other
+
+
+def _attached_to(joint: Element, parent: Parts, origin: Element | None) -> Element:
+    """Return a joint with another parent and origin."""
+    content: list[Content] = [
+        one for one in joint.content if not (isinstance(one, Element) and one.tag in ("parent", "origin"))
+    ]
+    content.append(Element("parent", {"link": parent}, []))
+    return Element(joint.tag, joint.attributes, content, joint.origin, joint.calls)

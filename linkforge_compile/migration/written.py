@@ -1,0 +1,256 @@
+"""Write a template as URDF in which a number stands for each expression, for one outcome of each condition."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Mapping
+from xml.sax.saxutils import escape, quoteattr
+
+from linkforge_compile.migration.conditions import WORDS, Outcomes, decided, holds
+from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.dimensions import Placement
+from linkforge_compile.migration.logic import folded
+from linkforge_compile.migration.placeholders import Placeholders, key_of
+from linkforge_compile.migration.symbols import (
+    BOOLEAN,
+    NUMBER,
+    TEXT,
+    UNKNOWN,
+    UNSET,
+    VECTOR,
+    NotConstantError,
+    Parts,
+    Reference,
+    Symbol,
+    as_expression,
+    as_parts,
+    constant,
+    is_literal,
+    joined,
+    kind_of,
+    literal_of,
+    refer,
+    symbols_in,
+    tokens_of,
+    with_whole_paths,
+)
+from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
+from linkforge_compile.units import number_text
+
+_LENGTH, _ANGLE = "length", "angle"
+NUMBERS: Mapping[tuple[str, str], tuple[int, str]] = {
+    ("origin", "xyz"): (3, _LENGTH),
+    ("origin", "rpy"): (3, _ANGLE),
+    ("axis", "xyz"): (3, ""),
+    ("box", "size"): (3, _LENGTH),
+    ("mesh", "scale"): (3, ""),
+    ("color", "rgba"): (4, ""),
+    ("mass", "value"): (1, "mass"),
+    ("cylinder", "radius"): (1, _LENGTH),
+    ("cylinder", "length"): (1, _LENGTH),
+    ("capsule", "radius"): (1, _LENGTH),
+    ("capsule", "length"): (1, _LENGTH),
+    ("sphere", "radius"): (1, _LENGTH),
+    **{("inertia", f"i{axes}"): (1, "") for axes in ("xx", "yy", "zz", "xy", "xz", "yz")},
+    **{("limit", name): (1, "") for name in ("lower", "upper", "effort", "velocity", "acceleration", "jerk")},
+    **{("dynamics", name): (1, "") for name in ("damping", "friction")},
+    **{("mimic", name): (1, "") for name in ("multiplier", "offset")},
+    **{("safety_controller", f"soft_{end}_limit"): (1, "") for end in ("lower", "upper")},
+    **{("safety_controller", f"k_{kind}"): (1, "") for kind in ("position", "velocity")},
+    **{("calibration", edge): (1, "") for edge in ("rising", "falling")},
+}
+"""Attributes that are numbers: how many, and their dimension if that is always the same."""
+
+_NAMES = frozenset(("name", "link", "joint", "reference"))
+_PLUGINS = frozenset(("gazebo", "ros2_control", "transmission"))
+
+
+class Writer:
+    """Writes the elements of one file."""
+
+    def __init__(self, placeholders: Placeholders) -> None:
+        self.placeholders = placeholders
+        self.placements: list[Placement] = []
+        """The expressions that were written, with the dimensions of their fields."""
+
+    def document(self, attributes: Mapping[str, Parts], elements: Iterable[str]) -> str:
+        """Return a URDF with these elements."""
+        written = "".join(f" {name}={quoteattr(self.name(parts))}" for name, parts in attributes.items())
+        return f"<robot{written}>{''.join(elements)}</robot>"
+
+    def element(self, element: Element, outcomes: Outcomes, *, is_plugin: bool = False, mark: str | None = None) -> str:
+        """Return an element as it is for the outcomes of its conditions, with a mark at the end of its content."""
+        is_plugin = is_plugin or element.tag in _PLUGINS
+        attributes = "".join(
+            f" {name}={quoteattr(self._attribute((element.tag, name), parts, outcomes, is_plugin=is_plugin))}"
+            for name, parts in element.attributes.items()
+        )
+        content = self.content(element.content, outcomes, is_plugin=is_plugin) + (mark or "")
+        return f"<{element.tag}{attributes}>{content}</{element.tag}>" if content else f"<{element.tag}{attributes}/>"
+
+    def content(self, content: Iterable[Content], outcomes: Outcomes, *, is_plugin: bool) -> str:
+        """Return what is in an element."""
+        pieces: list[str] = []
+        for one in content:
+            if isinstance(one, Element):
+                pieces.append(self.element(one, outcomes, is_plugin=is_plugin))
+            elif isinstance(one, Choice) and holds(one.test, outcomes):
+                pieces.append(self.content(one.content, outcomes, is_plugin=is_plugin))
+            elif isinstance(one, Text):
+                pieces.append(escape(self._text(one.parts, is_plugin=is_plugin)))
+            elif isinstance(one, Comment) and "--" not in one.text:
+                pieces.append(f"<!--{one.text}-->")
+        return "".join(pieces)
+
+    # Values
+
+    def _attribute(self, key: tuple[str, str], parts: Parts, outcomes: Outcomes, *, is_plugin: bool) -> str:
+        if not is_plugin and key in NUMBERS:
+            return self._numbers(parts, *NUMBERS[key])
+        if key in WORDS:
+            return str(constant_of(decided(as_expression(canonical(parts)), outcomes)))
+        if key[1] in _NAMES:
+            return self.name(parts)
+        return self._text(parts, is_plugin=is_plugin)
+
+    def name(self, parts: Parts) -> str:
+        return self._text(canonical(parts), is_plugin=True)
+
+    def _numbers(self, parts: Parts, count: int, dimension: str) -> str:
+        if is_literal(parts):
+            return "".join(map(str, parts))
+        if count > 1 and len(parts) == 1 and isinstance(parts[0], ast.expr):
+            return self._vector(parts[0], count, dimension)
+        return " ".join(self._number(token, dimension) for token in tokens_of(parts))
+
+    def _vector(self, node: ast.expr, count: int, dimension: str) -> str:
+        if literal_of(node) is not UNSET:
+            return str(literal_of(node))
+        try:
+            known = constant_of(node)
+        except NotConstantError:
+            known = None
+        if isinstance(known, int | float) or (isinstance(node, Reference) and node.symbol.kind == NUMBER):
+            return self._number((node,), dimension)
+        if isinstance(known, str) and not isinstance(node, Reference):
+            return known
+        if isinstance(node, Reference):
+            if node.symbol.value and len(node.symbol.value) > 1 and node.symbol.role == "variable":
+                count = len(tokens_of(node.symbol.value))
+            mark_vector(node.symbol, count)
+        return " ".join(self.placeholders.number(node, component, count) for component in range(count))
+
+    def _number(self, token: Parts, dimension: str) -> str:
+        if is_literal(token):
+            return "".join(map(str, token))
+        match token:
+            case (ast.expr() as node,):
+                pass
+            case ("-", ast.expr() as inner):
+                node = folded(ast.UnaryOp(op=ast.USub(), operand=inner))
+            case ("+", ast.expr() as inner):
+                node = inner
+            case _:
+                node = as_expression(token)
+        for symbol in (one.symbol for one in _bare(node)):
+            if symbol.kind in (UNKNOWN, TEXT):
+                symbol.kind = NUMBER
+            if dimension:
+                symbol.dimensions.add(dimension)
+            else:
+                symbol.dimensions.add("number")
+        self.placements.append((node, dimension))
+        literal = literal_of(node)
+        return self.placeholders.number(node) if literal is UNSET else _python_text(literal)
+
+    def _text(self, parts: Parts, *, is_plugin: bool) -> str:
+        pieces: list[str] = []
+        for part in with_whole_paths(parts):
+            if isinstance(part, str):
+                pieces.append(part)
+                continue
+            literal = literal_of(part)
+            if literal is not UNSET:
+                pieces.append(_python_text(literal))
+            elif kind_of(part) == BOOLEAN and not getattr(part, "is_as_given", False):
+                word = ast.IfExp(test=part, body=constant("True"), orelse=constant("False"))
+                pieces.append(self.placeholders.number(word))
+            else:
+                pieces.append(self._text_of(part))
+        return "".join(pieces)
+
+    def _text_of(self, node: ast.expr) -> str:
+        """Return the number for an expression in a text; what Python would spell differently is written as it does."""
+        for symbol in symbols_in(node):
+            symbol.is_written = True
+        try:
+            known = constant_of(node)
+        except NotConstantError:
+            known = None
+        if isinstance(known, float) and str(known) != number_text(known):
+            return str(known)
+        return self.placeholders.number(node)
+
+
+def _bare(node: ast.expr) -> list[Reference]:
+    """Return the names whose value an expression gives: itself, or through a sign."""
+    match node:
+        case Reference():
+            return [node]
+        case ast.UnaryOp(operand=Reference() as inner):
+            return [inner]
+    return []
+
+
+def mark_vector(symbol: Symbol, count: int) -> None:
+    """Note that a name is used as a vector, also for the names whose value it is."""
+    if symbol.kind == VECTOR and symbol.size == count:
+        return
+    symbol.kind, symbol.size = VECTOR, count
+    if symbol.value and len(symbol.value) == 1 and isinstance(symbol.value[0], ast.expr):
+        symbol.value = (_as_vector(symbol.value[0], symbol, count),)
+
+
+def _as_vector(node: ast.expr, symbol: Symbol, count: int) -> ast.expr:
+    """Return the value of a vector, with names for the lists among its alternatives, which expressions do not have."""
+    match node:
+        case Reference():
+            mark_vector(node.symbol, count)
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            sides = [_as_vector(side, symbol, count) for side in (body, orelse)]
+            return ast.IfExp(test=test, body=sides[0], orelse=sides[1])
+        case ast.Constant(value=str() as text):
+            choice = Symbol(f"{symbol.wish}_choice", "variable", (text,), text, VECTOR, place=symbol.place, size=count)
+            return refer(choice)
+    return node
+
+
+def _python_text(value: object) -> str:
+    return str(value)
+
+
+def canonical(parts: Parts) -> Parts:
+    """Return a name with the values of variables in their places, so that equal names are equal texts."""
+    made: Parts = ()
+    for part in parts:
+        if isinstance(part, Reference):
+            symbol = part.symbol
+            if symbol.role == "variable" and symbol.value is not None:
+                value = canonical(symbol.value)
+                if len(value) == 1 and isinstance(value[0], ast.IfExp):
+                    short = refer(symbol)
+                    short.canonical = key_of(value[0])
+                    value = (short,)
+                made = joined(made, value)
+                continue
+        if isinstance(part, ast.expr):
+            try:
+                made = joined(made, (str(constant_of(part)),))
+                continue
+            except NotConstantError:
+                text = as_parts(part)
+                if len(text) > 1:
+                    made = joined(made, canonical(text))
+                    continue
+        made = joined(made, (part,))
+    return made

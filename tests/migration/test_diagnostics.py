@@ -1,0 +1,132 @@
+"""What a migration reports, and the command."""
+
+import re
+from pathlib import Path
+
+from tests.cli.in_process import linkforge
+from tests.conftest import ROOT
+from tests.migration.migrated import write
+
+ROBOT = """
+<xacro:arg name="long" default="false"/>
+<xacro:macro name="paint" params="link"><gazebo reference="${link}"><mu1>0.5</mu1></gazebo></xacro:macro>
+<link name="base"/>
+<xacro:if value="$(arg long)">
+  <link name="tip"/>
+  <joint name="j" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</xacro:if>
+<xacro:paint link="base"/>
+"""
+
+
+def test_the_command_writes_specs_and_prints_a_report(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 0
+    assert "proof       2 of 2 combinations of its arguments are the same robot\n" in ran.stdout
+    assert "macro 'paint' is no module: it has no links of its own" in ran.stderr  # LF8041
+    text = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
+    assert text.startswith("# linkforge migrate ../robot.xacro -o .\n")
+    assert [path.name for path in (tmp_path / "specs").iterdir()] == ["robot.robot.yaml"]
+
+
+def test_verify_finds_what_was_changed(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    assert linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path).returncode == 0
+    verify = ("migrate", "robot.xacro", "-o", "specs", "--verify")
+    assert linkforge(*verify, cwd=tmp_path).returncode == 0
+    spec = tmp_path / "specs/robot.robot.yaml"
+    spec.write_text(spec.read_text("utf-8").replace("mu1: 0.5", "mu1: 0.6"), "utf-8")
+    ran = linkforge(*verify, cwd=tmp_path)
+    assert ran.returncode == 1
+    assert "with long:=false, the specs are another robot: " in ran.stderr  # LF8040
+
+
+def test_other_content_is_replaced_only_by_force(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    (tmp_path / "robot.robot.yaml").write_text("mine\n")
+    assert linkforge("migrate", "robot.xacro", cwd=tmp_path).returncode == 2
+    assert (tmp_path / "robot.robot.yaml").read_text() == "mine\n"
+    assert linkforge("migrate", "robot.xacro", "--force", cwd=tmp_path).returncode == 0
+
+
+def test_a_xacro_that_cannot_be_translated_is_used_as_it_is(tmp_path: Path):
+    write(
+        tmp_path,
+        robot='<xacro:arg name="prefix" default="a_"/><xacro:element xacro:name="link" name="$(arg prefix)base"/>',
+    )
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 0
+    assert "because the language has no form for <xacro:element> [LF8043]" in ran.stderr
+    spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
+    assert 'robot: {use: ../robot.xacro, prefix: "", with: {prefix: $(name_prefix)}}' in spec
+
+
+def test_combinations_that_xacro_refuses_are_not_compared(tmp_path: Path):
+    write(
+        tmp_path,
+        robot="""
+        <xacro:arg name="broken" default="false"/>
+        <link name="base"/>
+        <xacro:if value="$(arg broken)">
+          <joint name="j" type="fixed"><parent link="base"/><child link="nowhere"/></joint>
+        </xacro:if>
+        """,
+    )
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 0
+    assert "with broken:=true, nothing is compared, because xacro's robot is faulty" in ran.stderr  # LF8044
+
+
+def test_an_argument_that_chooses_a_file_is_reported(tmp_path: Path):
+    write(
+        tmp_path,
+        robot='<xacro:arg name="kind" default="small"/><xacro:include filename="$(arg kind).xacro"/>',
+        small='<link name="small"/>',
+    )
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert "'kind' is 'small' in the specs" in ran.stderr
+    assert "[LF8042]" in ran.stderr
+
+
+def test_the_report_as_json(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--json", cwd=tmp_path)
+    assert '"same": true' in ran.stdout
+    assert '"in_place": 1' in ran.stdout
+
+
+def test_a_file_that_is_none_is_wrong_usage(tmp_path: Path):
+    ran = linkforge("migrate", "nothing.xacro", cwd=tmp_path)
+    assert ran.returncode == 2
+    assert "'nothing.xacro' is no file" in ran.stderr
+
+
+def test_the_example_of_the_docs_is_what_the_command_writes(tmp_path: Path):
+    page = (ROOT / "docs/from-xacro.md").read_text("utf-8")
+    (tmp_path / "cart.urdf.xacro").write_text(re.findall(r"```xml\n(.*?)```", page, re.DOTALL)[0], "utf-8")
+    assert linkforge("migrate", "cart.urdf.xacro", cwd=tmp_path).returncode == 0
+    shown = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    assert [(tmp_path / name).read_text("utf-8") for name in ("cart.robot.yaml", "wheel.robot.yaml")] == shown
+
+
+def test_a_macro_that_cannot_be_translated_stays_one(tmp_path: Path):
+    write(
+        tmp_path,
+        robot="""
+        <xacro:include filename="parts.xacro"/>
+        <link name="base"/>
+        <xacro:part name="tip" parent="base"/>
+        """,
+        parts="""
+        <xacro:macro name="part" params="name parent">
+          <xacro:element xacro:name="link" name="${name}"/>
+          <joint name="${name}_joint" type="fixed"><parent link="${parent}"/><child link="${name}"/></joint>
+        </xacro:macro>
+        """,
+    )
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+    assert "macro 'part' stays a macro of its xacro" in ran.stderr  # LF8045
+    spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
+    assert 'tip: {use: ../parts.xacro, macro: part, parent: base, prefix: "", with: {name: tip}}' in spec

@@ -1,0 +1,53 @@
+"""Includes, data of YAML files and packages."""
+
+from pathlib import Path
+
+from tests.migration.migrated import migrated
+
+
+def test_what_is_included_is_read_with_its_comments(tmp_path: Path):
+    made = migrated(
+        tmp_path,
+        '<xacro:include filename="parts.xacro"/>\n<xacro:part name="base"/>',
+        parts="""
+        <!-- how wide all parts are -->
+        <xacro:property name="width" value="0.1"/>
+        <xacro:macro name="part" params="name">
+          <!-- the body -->
+          <link name="${name}"><visual><geometry><sphere radius="${width}"/></geometry></visual></link>
+        </xacro:macro>
+        """,
+    )
+    assert "  # how wide all parts are\n  width: 0.1\n" in made.files["part.robot.yaml"]
+    assert "  # the body\n  $(base_name):" in made.files["part.robot.yaml"]
+
+
+def test_yaml_files_become_data(tmp_path: Path):
+    (tmp_path / "limits_a.yaml").write_text("shoulder: {lower: !degrees -90, upper: 1.5}\n")
+    (tmp_path / "limits_b.yaml").write_text("shoulder: {lower: !degrees -45, upper: 1.0}\n")
+    spec = migrated(
+        tmp_path,
+        """
+        <xacro:arg name="model" default="a"/>
+        <xacro:property name="limits" value="${xacro.load_yaml('limits_' + xacro.arg('model') + '.yaml')}"/>
+        <link name="base"/>
+        <link name="arm"/>
+        <joint name="j" type="revolute">
+          <parent link="base"/><child link="arm"/>
+          <limit lower="${limits['shoulder']['lower']}" upper="${limits.shoulder.upper}" effort="1" velocity="1"/>
+        </joint>
+        """,
+    ).robot
+    assert "../limits_$(model).yaml" in spec
+    assert "upper: $(limits.shoulder.upper)" in spec
+
+
+def test_an_argument_that_chooses_a_file_keeps_its_value(tmp_path: Path):
+    made = migrated(
+        tmp_path,
+        '<xacro:arg name="kind" default="small"/><xacro:include filename="$(arg kind).xacro"/>',
+        small='<link name="small"/>',
+        large='<link name="large"/>',
+    )
+    assert "kind: {type: string, default: small, enum: [small]}" in made.robot
+    assert [one.code.id for one in made.proved.diagnostics] == ["LF8042"]
