@@ -56,6 +56,7 @@ class MadeFiles(BuildHookInterface[Any]):  # Any: the configuration of whatever 
                     error.stderr.decode(errors="replace") if isinstance(error, subprocess.CalledProcessError) else ""
                 )
                 self.app.display_warning(f"`linkforge view` has no page, which npm builds: {error}\n{output}")
+                return ()  # an older page would not be that of these sources
         return (page,) if page.is_file() else ()
 
 
