@@ -22,7 +22,7 @@ from linkforge_compile.syntax.fixes import (
     space_after_colon,
     space_after_dash,
 )
-from linkforge_compile.syntax.nodes import IN_QUOTES, XACRO_EXPRESSION, is_cut_expression, xacro_facts
+from linkforge_compile.syntax.nodes import IN_QUOTES, MAX_DEPTH, XACRO_EXPRESSION, is_cut_expression, xacro_facts
 from linkforge_compile.syntax.parser import Marks
 
 _LINE = re.compile(r"[^\r\n]+")
@@ -317,6 +317,8 @@ def _explain_document_end(failure: _Failure) -> Diagnostic:
 
 
 _EXPLANATIONS: tuple[tuple[str, Callable[[_Failure], Diagnostic]], ...] = (
+    # libyaml has a limit of its own since 0.2.6, and reads ahead of ours.
+    ("maximum nesting depth", lambda failure: codes.TOO_DEEP.at(failure.here, limit=MAX_DEPTH)),
     (r"\btab\b", _explain_tab),
     (r"cannot start any token", _explain_reserved_character),
     (r"alphabetic or numeric|comment or (a )?line break|chomping", _explain_reserved_start),
