@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 import operator
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -37,7 +38,16 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 }
 _NAMES = {"pi": math.pi}
 _MOST = 1e12
-"""The largest exponent or whole number that is computed."""
+"""The largest base of a power."""
+
+_MOST_BITS = 4096
+"""The longest whole numbers together that are computed with."""
+
+MOST_ITEMS = 100_000
+"""The longest text or list that is made."""
+
+_WIDTH = re.compile(r"%[^a-zA-Z%]*(?:\d{4}|\*)")
+"""A `%` that makes a text as long as a number in it says."""
 
 
 class _CannotComputeError(Exception):
@@ -89,7 +99,7 @@ def _operation(node: ast.expr) -> Any:
         case ast.UnaryOp(op=operation, operand=operand):
             return OPERATORS[type(operation)](_value(operand))
         case ast.BinOp(left=left, op=operation, right=right):
-            return _calculate(operation, _value(left), _value(right))
+            return calculate(operation, _value(left), _value(right))
         case ast.BoolOp(op=ast.And(), values=values):
             return all(_value(value) for value in values)
         case ast.BoolOp(values=values):
@@ -103,9 +113,22 @@ def _operation(node: ast.expr) -> Any:
     raise _CannotComputeError
 
 
-def _calculate(operation: ast.operator, left: Any, right: Any) -> Any:
-    if isinstance(operation, ast.Pow) and not (abs(left) < _MOST and abs(right) < 100):
-        raise _CannotComputeError
-    if isinstance(operation, ast.Mult) and isinstance(left, str | list):
-        raise _CannotComputeError
+def calculate(operation: ast.operator, left: Any, right: Any) -> Any:
+    """Return the result of an operation of Python.
+
+    Raises:
+        ArithmeticError: for a number or a text that is longer than any robot needs, before it is made.
+
+    """
+    sequences = [one for one in (left, right) if isinstance(one, str | list | tuple)]
+    numbers = [one for one in (left, right) if isinstance(one, int)]
+    checks: dict[type[ast.operator], Callable[[], bool]] = {
+        ast.Pow: lambda: not (abs(left) < _MOST and abs(right) < 100),
+        ast.Mult: lambda: bool(sequences),
+        ast.Add: lambda: sum(map(len, sequences)) > MOST_ITEMS,
+        ast.Mod: lambda: isinstance(left, str) and _WIDTH.search(left) is not None,
+    }
+    is_huge = checks.get(type(operation), lambda: False)()
+    if is_huge or sum(one.bit_length() for one in numbers) > _MOST_BITS:
+        raise OverflowError
     return OPERATORS[type(operation)](left, right)

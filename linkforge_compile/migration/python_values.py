@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from linkforge_compile.migration.constants import FUNCTIONS, OPERATORS
+from linkforge_compile.migration.constants import FUNCTIONS, MOST_ITEMS, OPERATORS, calculate
 
 _METHODS = frozenset(
     (
@@ -88,7 +88,7 @@ class PythonValues:
             case ast.UnaryOp(op=operation, operand=operand):
                 return OPERATORS[type(operation)](self._value(operand, local))
             case ast.BinOp(left=left, op=operation, right=right):
-                return self._calculate(operation, self._value(left, local), self._value(right, local))
+                return calculate(operation, self._value(left, local), self._value(right, local))
             case ast.BoolOp(op=operation, values=values):
                 return self._boolean(operation, values, local)
             case ast.Compare(left=left, ops=operations, comparators=others):
@@ -111,15 +111,6 @@ class PythonValues:
             case ast.Attribute(value=whole, attr=name):
                 return self._value(whole, local)[name]
 
-    def _calculate(self, operation: ast.operator, left: Any, right: Any) -> Any:
-        if isinstance(operation, ast.Pow) and not (abs(left) < 1e9 and abs(right) < 100):
-            raise UnknownValueError
-        if isinstance(operation, ast.Mult) and not isinstance(left, int | float):
-            raise UnknownValueError
-        if isinstance(operation, ast.Mod) and isinstance(left, str):
-            return left % right
-        return OPERATORS[type(operation)](left, right)
-
     def _boolean(self, operation: ast.boolop, values: list[ast.expr], local: Mapping[str, Any]) -> Any:
         value: Any = None
         for each in values:
@@ -129,16 +120,18 @@ class PythonValues:
         return value
 
     def _rounds(self, generators: list[ast.comprehension], local: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-        rounds = [dict(local)]
+        rounds: list[Mapping[str, Any]] = [local]
         for generator in generators:
             if not isinstance(generator.target, ast.Name):
                 raise UnknownValueError
             name = generator.target.id
-            rounds = [{**one, name: item} for one in rounds for item in self._value(generator.iter, one)]
-            rounds = [one for one in rounds if all(self._value(test, one) for test in generator.ifs)]
-            if len(rounds) > _MOST_ITEMS:
-                raise UnknownValueError
-        return list(rounds)
+            made: list[Mapping[str, Any]] = []
+            for one in rounds:
+                made += ({**one, name: item} for item in self._value(generator.iter, one))
+                if len(made) > _MOST_ITEMS:
+                    raise UnknownValueError
+            rounds = [one for one in made if all(self._value(test, one) for test in generator.ifs)]
+        return rounds
 
     def _call(self, node: ast.Call, local: Mapping[str, Any]) -> Any:
         arguments = [self._value(argument, local) for argument in node.args]
@@ -150,6 +143,10 @@ class PythonValues:
             case ast.Attribute(value=whole, attr=name) if name in _METHODS:
                 owner = self._value(whole, local)
                 if type(owner) not in (str, list, dict, tuple):
+                    raise UnknownValueError
+                # What is joined, or put in place of each character.
+                texts = [text for one in arguments for text in (one if isinstance(one, list) else [one])]
+                if len(owner) * sum(len(text) for text in texts if isinstance(text, str)) > MOST_ITEMS:
                     raise UnknownValueError
                 found = getattr(owner, name)(*arguments)
                 return list(found) if name in ("keys", "values", "items") else found
