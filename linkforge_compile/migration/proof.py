@@ -67,9 +67,8 @@ class Prover:
         compilation = self._compile(spec, names, arguments)
         if compilation.robot is None:
             return Comparison(arguments, fault=_first_error(compilation.diagnostics))
-        back, faults = as_read_back(compilation.robot)
+        back, _ = as_read_back(compilation.robot)
         robot = back or compilation.robot
-        del faults
         found = compare(expected, robot, tolerance=TOLERANCE, semantic=False)
         return Comparison(arguments, tuple(f"{'/'.join(one.path)}: {one.text}" for one in found))
 
