@@ -29,6 +29,7 @@ from linkforge_compile.migration.symbols import (
     as_parts,
     call,
     constant,
+    is_literal,
     is_path,
     joined,
     kind_of,
@@ -157,7 +158,7 @@ class Evaluator(ABC):
         self, name: str, node: ast.expr, file: FileDraft, comment: str = "", place: tuple[str, int] = ("", 0)
     ) -> ast.expr:
         """Return a new variable of a spec; data and variables stay what they are."""
-        if isinstance(node, Reference) and node.symbol.role == "data" and node.symbol.wish == name:
+        if isinstance(node, Reference) and node.symbol.kind == MAP and node.symbol.wish == name:
             return node
         known: object = UNSET
         with suppress(NotConstantError):
@@ -187,7 +188,7 @@ class Evaluator(ABC):
         with suppress(NotConstantError):
             known = self.sources.data(context.folder / self.path_text(parts))
         if known is not UNSET and not self.sources.is_readable(context.folder / self.path_text(parts)):
-            return constant(known)
+            return self._unreadable(known, self.address(parts, context), context)
         for part in parts[:1]:
             if isinstance(part, Reference):
                 part.symbol.is_data_path = True
@@ -198,6 +199,17 @@ class Evaluator(ABC):
         wish = _name_of_data(address)
         symbol = Symbol(wish, "data", address, known, MAP)
         context.file.symbols.append(symbol)
+        return refer(symbol)
+
+    def _unreadable(self, known: object, address: Parts, context: Context) -> ast.expr:
+        """Return the data of a file that no spec can read as a variable."""
+        wish = _name_of_data(address)
+        same = (one for one in context.file.symbols if one.wish == wish and one.constant is known)
+        symbol = next(same, None)
+        if symbol is None:
+            symbol = Symbol(wish, "variable", (constant(known),), known, MAP)
+            symbol.comment = f"from {address[0]}, which a spec does not read as it is" if is_literal(address) else ""
+            context.file.symbols.append(symbol)
         return refer(symbol)
 
     def address(self, parts: Parts, context: Context) -> Parts:

@@ -6,7 +6,7 @@ import shlex
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
@@ -36,6 +36,8 @@ class Proved:
     comparisons: Sequence[Comparison]
     diagnostics: Sequence[Diagnostic]
     figures: Figures | None = None
+    names: Mapping[str, str] = field(default_factory=dict)
+    """The parameters of the robot by the arguments that they were."""
 
     @property
     def is_equal(self) -> bool:
@@ -88,7 +90,7 @@ class Migrator:
         migration, comparisons = self._with_computed_inertia(migration, comparisons, settled, prover)
         diagnostics = [*notes_of(migration), *faults_of(comparisons)]
         figures = figures_of(migration, comparisons)
-        return Proved(migration.main, migration.files, comparisons, diagnostics, figures)
+        return Proved(migration.main, migration.files, comparisons, diagnostics, figures, migration.names)
 
     def _with_computed_inertia(
         self, migration: Migration, comparisons: list[Comparison], settled: Settled, prover: Prover
@@ -160,7 +162,8 @@ class Migrator:
         name = f"{stem_of(self.main)}.robot.yaml"
         with self._in_files({name: text}) as folder:
             comparisons = prover.compare(folder / name, parameter_names(known), [dict(self.given)])
-        return Proved(name, {name: text}, comparisons, [*faults, report, *faults_of(comparisons)])
+        diagnostics = [*faults, report, *faults_of(comparisons)]
+        return Proved(name, {name: text}, comparisons, diagnostics, names=parameter_names(known))
 
 
 def _first_failure(comparisons: Sequence[Comparison]) -> str:

@@ -14,6 +14,8 @@ from linkforge_compile.diagnostics.codes.importing import (
     MIGRATION_DIFFERS,
     MIGRATION_UNPROVED,
 )
+from linkforge_compile.migration.attachment import parts_of
+from linkforge_compile.migration.calls import Called
 from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.migrate import Migration
 from linkforge_compile.migration.proof import Comparison
@@ -24,10 +26,12 @@ _MOST_DIFFERENCES = 5
 class Figures(NamedTuple):
     """The numbers of a migration.
 
-    Of the macros that are called, `modules` are files, `in_place` are written where they are called without raw XML.
+    Of the macros that are called, `parts` have links or joints, so that they can be modules; the others make values.
+    `modules` are files, `raw_macros` of them with raw XML, and `in_place` are written where they are called.
     """
 
     macros: int
+    parts: int
     modules: int
     in_place: int
     kept: int
@@ -59,8 +63,10 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
     tags = Counter(one.tag for one in elements)
     texts = [document.root.file.text for document in expander.sources.documents.values()]
     kept = sum(1 for spec in migration.specs.values() for symbol in spec.used if symbol.role != "parameter")
+    parts = {one.macro.body for one in migration.calls.called if is_part(one)}
     return Figures(
         macros=len(called),
+        parts=len(parts),
         modules=len(modules),
         in_place=len(called) - len(modules) - len(migration.calls.kept),
         kept=len(migration.calls.kept),
@@ -92,6 +98,11 @@ def lines_of(figures: Figures) -> Iterator[str]:
     yield f"raw XML     {_counted(figures.raw, 'place')}"
     before = f"{figures.lines_before} in {_counted(figures.files_before, 'file')}"
     yield f"lines       {before} before, {figures.lines_after} in {_counted(figures.files_after, 'file')} after"
+
+
+def is_part(called: Called) -> bool:
+    """Whether what a call expands to has links or joints of the robot."""
+    return not called.context.is_inside and any(one.tag in ("link", "joint") for one, _ in parts_of(called.content, ()))
 
 
 def _counted(number: int, noun: str) -> str:

@@ -6,6 +6,7 @@ import ast
 import copy
 from itertools import chain, count
 
+from linkforge_compile.migration.nodes import data_of
 from linkforge_compile.migration.placeholders import PLACEHOLDER, Placeholders
 from linkforge_compile.migration.symbols import (
     UNSET,
@@ -62,7 +63,8 @@ class Values:
             items = [self._scalar(token, where) for token in tokens_of(parts)]
             return YamlList(tuple(items), where)
         if len(parts) == 1 and isinstance(parts[0], ast.expr):
-            return self._scalar(parts, where)
+            literal = literal_of(parts[0])
+            return data_of(literal, where) if isinstance(literal, dict | list) else self._scalar(parts, where)
         text = self.text(parts)
         return YamlScalar(text, text, where)
 
