@@ -1,5 +1,7 @@
 """A declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out.
 
+For example::
+
     from linkforge_compile import compile_file, render, render_urdf
 
     compilation = compile_file("arm.robot.yaml", parameters={"reach": "0.7 m"})

@@ -187,20 +187,22 @@ def test_modules_and_functions_are_short():
                 assert lines <= MOST_LINES_OF_FUNCTION, f"{file}:{node.lineno}: '{node.name}' is too long: split it"
 
 
-GUIDE = (PACKAGE.parent / "docs/contributing.md").read_text("utf-8")
+GUIDE, OVERVIEW = [
+    (PACKAGE.parent / "docs" / name).read_text("utf-8") for name in ("contributing.md", "how-it-is-built.md")
+]
 NEW_FILES = {"linkforge_compile/cli/commands/links.py", "tests/cli/test_links.py"}
 """Files that the guide creates in an example."""
 
 
 def test_the_guide_has_a_row_for_each_package():
-    rows = re.findall(r"^\| (.*?) \|", GUIDE.partition("| package |")[2].partition("\n\n")[0], re.MULTILINE)
+    rows = re.findall(r"^\| (.*?) \|", OVERVIEW.partition("| package |")[2].partition("\n\n")[0], re.MULTILINE)
     named = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     assert named == {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
 
 
 def test_files_in_the_guide_exist():
     folders = (PACKAGE.parent, PACKAGE)
-    for name in {*re.findall(r"`([\w./]+/\w+\.\w+(?:\.j2)?)`", GUIDE)} - NEW_FILES:
+    for name in {*re.findall(r"`([\w./]+/\w+\.\w+(?:\.j2)?)`", OVERVIEW + GUIDE)} - NEW_FILES:
         assert any((folder / name).exists() for folder in folders), name
 
 
