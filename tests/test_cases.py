@@ -123,6 +123,8 @@ WITHOUT_A_CASE = {
     "LF8035": "load/test_xacro_modules.py",
     "LF8036": "load/test_xacro_macros.py",
     "LF8037": "load/test_xacro_macros.py",
+    "LF8046": "load/test_xacro_macros.py",
+    "LF8047": "load/test_xacro_macros.py",
     "LF8038": "load/test_xacro_macros.py",
     "LF8039": "load/test_xacro_faults.py",
     "LF8063": "load/test_xacro_faults.py",

@@ -109,7 +109,7 @@ class _Expander:
         bound = BoundArguments(entry.arguments, sink, entry.use.span)
         use = Use(spec, bound, entry, outer, outer.writers(scope.packages))
         instance = self.expand(use) if self._is_bounded(use, sink) else None
-        return instance if instance and entry.is_named else _unread(entry)
+        return replace(instance, shared_link=entry.shared_link) if instance and entry.is_named else _unread(entry)
 
     def _open_robot(self, entry: ModuleEntry, site: PathSite, scope: FileScope) -> tuple[SpecFile | None, ModuleEntry]:
         """Return the file that an entry uses with its SRDF merged, and the entry with what no xacro has used."""

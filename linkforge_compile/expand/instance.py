@@ -50,6 +50,7 @@ class Instance:
     - `packages`: the package folders that the file declares.
     - `defaults`: the computed defaults, None for none; the tree has them merged in.
     - `overrides`: the computed overrides for this use, which the tree has merged in, with the names in its file.
+    - `shared_link`: the root link of its tree that is no link of its own but the `parent` of the entry, None for none.
     - `names`: evaluates the names that the file declares; None for a file that declares none.
     - `spec`: the file, with its tree as written; None if it cannot be read.
     """
@@ -67,6 +68,7 @@ class Instance:
     packages: Mapping[str, Path] = field(default_factory=dict)
     defaults: YamlMap | None = None
     overrides: tuple[YamlMap, ...] = ()
+    shared_link: str | None = None
     names: Evaluation | None = None
     spec: SpecFile | None = None
 

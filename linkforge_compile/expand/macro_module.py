@@ -1,17 +1,20 @@
-"""A macro of a xacro file as a module: its joint to a link that is not its own becomes the `mount` of the module."""
+"""A macro of a xacro file as a module: its joint to a link that is not its own becomes the `mount` of the module.
+
+Of several such joints none can be the mount. They stay as they are, with the link above as that of another file.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import MACRO_PLACES_ITSELF
 from linkforge_compile.expand.long_forms import with_frames_as_joints
 from linkforge_compile.expand.modules import ModuleEntry
-from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
+from linkforge_compile.load.loader import Loader, SpecFile
 from linkforge_compile.load.xacro import XacroUse
-from linkforge_compile.load.xacro_macro import STAND_IN, MacroEntry, MacroResult, call_macro
+from linkforge_compile.load.xacro_macro import MacroEntry, MacroResult, call_macro
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
 
 
@@ -24,35 +27,74 @@ def open_macro(
     parent, has_prefix = fields.get("parent"), fields.get("prefix") is not None
     parent = parent if isinstance(parent, YamlScalar) else None
     call = MacroEntry(entry.name, macro, parent, fields.get("origin"), entry.prefix, has_prefix)
-    # What is wrong inside is the macro's, so the call is where the file is used.
-    result = call_macro(replace(use, used=ImportSite(use.used.text, macro.span)), call, loader, sink)
+    result = call_macro(use, call, loader, sink)
     if result is None:
         return None, entry
     entry = replace(entry, prefix=result.prefix)
     tree, joints = _without_joints_at(result.parent.text, result.spec.tree)
+    if result.placed and (origin := fields.get("origin")) is not None:
+        tree = _with_placed_joints(result.placed, tree, origin)
     if not joints:
-        return result.spec, entry
-    if parent is None and result.parent.text != STAND_IN:
+        return replace(result.spec, tree=tree), entry
+    if parent is None and not result.is_stand_in:
         fields = fields.with_value("parent", result.parent)
-    fields = _with_own_origin(fields, joints, result, macro, sink)
+    _report_unused_origin(fields, joints, result, macro, sink)
+    if len(joints) > 1 and fields.get("parent") is not None:
+        tree = _with_joints_at(result.parent, joints, tree, result, fields.get("origin"))
+        entry = replace(entry, ref=replace(entry.ref, node=fields), shared_link=result.parent.text)
+        return replace(result.spec, tree=tree), entry
+    fields = _with_own_origin(fields, joints, result)
     mount = YamlMap({one.name: YamlEntry(one.key, _without_ends(one.value)) for one in joints}, tree.span)
     return replace(result.spec, tree=tree.with_value("mount", mount)), replace(
         entry, ref=replace(entry.ref, node=fields)
     )
 
 
-def _with_own_origin(
-    fields: YamlMap, joints: Iterable[YamlEntry], result: MacroResult, macro: YamlScalar, sink: Diagnostics
-) -> YamlMap:
+def _report_unused_origin(
+    fields: YamlMap, joints: Sequence[YamlEntry], result: MacroResult, macro: YamlScalar, sink: Diagnostics
+) -> None:
+    origin = fields.get("origin")
+    is_used = bool(result.placed) or (result.placed is None and len(joints) == 1)
+    if origin is not None and not is_used:
+        note = Note("this joint attaches it", joints[0].key.span)
+        sink.report(MACRO_PLACES_ITSELF.at(origin.span, macro=macro.text, notes=[note]))
+
+
+def _with_own_origin(fields: YamlMap, joints: Iterable[YamlEntry], result: MacroResult) -> YamlMap:
     """Return the fields of an entry with the origin that the macro gives its joint, if it is not that of the entry."""
     own = next((one for one in joints if not result.is_placed(one.name)), None)
     if own is None:
         return fields
-    if (origin := fields.get("origin")) is not None:
-        note = Note("this joint attaches it", own.key.span)
-        sink.report(MACRO_PLACES_ITSELF.at(origin.span, macro=macro.text, notes=[note]))
     written = own.value.get("origin") if isinstance(own.value, YamlMap) else None
-    return fields.with_value("origin", written) if written else fields
+    return fields.with_value("origin", written) if written else fields.without("origin")
+
+
+def _with_placed_joints(names: frozenset[str], tree: YamlMap, origin: YamlNode) -> YamlMap:
+    """Return the tree of a robot in which some of its joints have another origin."""
+    if not names <= tree.section("joints").keys():
+        # An empty link with a fixed joint was read as a frame.
+        tree = with_frames_as_joints(tree)
+    joints = tree.section("joints").values()
+    placed = (one._replace(value=_with_origin(one, origin)) if one.name in names else one for one in joints)
+    return tree.with_value("joints", _section(placed, tree)) if joints else tree
+
+
+def _with_joints_at(
+    parent: YamlScalar, joints: Iterable[YamlEntry], tree: YamlMap, result: MacroResult, origin: YamlNode | None
+) -> YamlMap:
+    """Return the tree of a robot with joints at a link, which is added; the entry's origin is that of some joints."""
+    placed = (one._replace(value=_with_origin(one, origin)) if result.is_placed(one.name) else one for one in joints)
+    link = YamlEntry(parent, YamlMap({}, parent.span))
+    links = _section([link, *tree.section("links").values()], tree)
+    return tree.with_value("links", links).with_value(
+        "joints", _section([*placed, *tree.section("joints").values()], tree)
+    )
+
+
+def _with_origin(joint: YamlEntry, origin: YamlNode | None) -> YamlNode:
+    if not isinstance(joint.value, YamlMap):
+        return joint.value
+    return joint.value.with_value("origin", origin) if origin else joint.value.without("origin")
 
 
 def _without_joints_at(parent: str, tree: YamlMap) -> tuple[YamlMap, list[YamlEntry]]:

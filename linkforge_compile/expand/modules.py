@@ -34,7 +34,7 @@ class ModuleEntry:
     """One entry: `ref` is it without `with` and `override`, `use` the file name, None for none.
 
     `arguments` are those of `with`. If `is_named` is false, the name or the prefix is faulty, so that the final names
-    in the module are unknown. `overrides` apply in order.
+    in the module are unknown. `overrides` apply in order. `shared_link` is as for `Instance`.
     """
 
     name: str
@@ -44,6 +44,7 @@ class ModuleEntry:
     is_named: bool = True
     arguments: Arguments = field(default_factory=Arguments)
     overrides: tuple[Override, ...] = ()
+    shared_link: str | None = None
 
 
 def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[ModuleUse, ...]) -> Iterator[ModuleEntry]:

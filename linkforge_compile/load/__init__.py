@@ -7,6 +7,7 @@ What each module knows; it imports only those above it:
     locations         what a path in a spec names -> a file; a path relative to one file -> relative to another
     xacro_library     a xacro file and what it includes -> the arguments and macros that they declare, by reading alone
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
+    macro_roles       a macro -> which of its parameters are the link above it, its place there, and its prefix
     xacro_macro       an entry of `modules` with `macro` -> the call of the macro, and the SpecFile that it makes
 """
 

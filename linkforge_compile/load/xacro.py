@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
+    MACRO_WITHOUT_LINKS,
     MACROS_ONLY,
     NOTHING_EXPANDED,
     XACRO_ARGUMENT_TOO_EARLY,
@@ -39,6 +40,11 @@ if TYPE_CHECKING:
 
 Look: TypeAlias = "Callable[[XmlDocument], None]"
 """Sees an expanded document."""
+
+_IN_NO_FILE_OF_MACRO = (
+    "if another file defines it, which robots include before this one: write a xacro that includes both files, "
+    "and use the macro from that"
+)
 
 FORBIDDEN = "LINKFORGE_NO_XACRO"
 """The environment variable that, set to anything, forbids expanding xacro files."""
@@ -116,8 +122,9 @@ def read_xacro(
 
 def _report_macros_only(use: XacroUse, library: XacroLibrary, expansion: Expansion, sink: Diagnostics) -> None:
     macros, where = library.macros, use.used.where or expansion.files[0].whole
-    if not macros:
-        sink.report(NOTHING_EXPANDED.at(where))
+    if use.call or not macros:
+        nothing = MACRO_WITHOUT_LINKS.at(where, macro=use.call.macro) if use.call else NOTHING_EXPANDED.at(where)
+        sink.report(nothing)
         return
     # Others, such as those of an inertia, are for these to call.
     making = next(
@@ -294,12 +301,13 @@ class XacroReporter:
         if failed.missing:
             name, near = failed.missing.name, names_in(failed.missing.parent)
             return XACRO_FILE_MISSING.at(where, path=as_typed(failed.missing), name=name, near=near, notes=notes)
+        elsewhere = [Note(_IN_NO_FILE_OF_MACRO)] if self.use.call else []
         if failed.kind == "NameError" and (unknown := re.search(r"'(\w+)'", reason)):
             kind, near_names = "property or parameter", self._names()
-            return XACRO_UNKNOWN_NAME.at(where, kind=kind, name=unknown[1], near=near_names, notes=notes)
+            return XACRO_UNKNOWN_NAME.at(where, kind=kind, name=unknown[1], near=near_names, notes=[*notes, *elsewhere])
         if unknown := re.match(r"unknown macro name: (?:xacro:)?(\S+)", reason):
             macros = self.written.named("xacro:macro")
-            return XACRO_UNKNOWN_NAME.at(where, kind="macro", name=unknown[1], near=macros, notes=notes)
+            return XACRO_UNKNOWN_NAME.at(where, kind="macro", name=unknown[1], near=macros, notes=[*notes, *elsewhere])
         from linkforge_compile.importers.xacro import plain_message
 
         within = f", in '${{{failed.expressions[-1]}}}'" if failed.expressions else ""

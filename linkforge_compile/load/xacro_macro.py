@@ -15,21 +15,23 @@ So these go where the macro wants them, and a prefix that it puts is not put twi
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import (
+    MACRO_ADDS_TO_PARENT,
     MACRO_BLOCK,
     MACRO_SETS_FIELD,
+    MACRO_WITHOUT_LINKS,
     XACRO_UNKNOWN_NAME,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
-from linkforge_compile.load.loader import Loader, SpecFile
+from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
+from linkforge_compile.load.macro_roles import OwnParent, OwnPrefix, own_parent, own_prefix, parameters_with, roles_of
 from linkforge_compile.load.xacro import XacroArgument, XacroUse, open_xacro
 from linkforge_compile.load.xacro_library import Macro, MacroParameter, XacroLibrary, read_library
 from linkforge_compile.source import SourceFile
@@ -38,7 +40,8 @@ from linkforge_compile.source.xml_tree import parse_xml
 from linkforge_compile.syntax import YamlNode, YamlScalar
 
 if TYPE_CHECKING:
-    from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
+    from linkforge_compile.source import Span
+    from linkforge_compile.source.xml_tree import XmlDocument
 
 ORIGIN = "origin"
 """The block that an entry of `modules` gives as its `origin`."""
@@ -64,23 +67,26 @@ class MacroEntry(NamedTuple):
 class MacroResult(NamedTuple):
     """What a call makes; `prefix` is still to be put before its names.
 
-    `parent` is the link, not among its own, to which it attaches its joint; `placed` are the names of the joints there
-    whose origin is that of the entry, None for all of them.
+    `parent` is the link, not among its own, to which it attaches its joint, `is_stand_in` if nobody named one; `placed`
+    are the names of the joints, there or further on, whose origin is that of the entry, None for all of them there.
     """
 
     spec: SpecFile
     prefix: str
     parent: YamlScalar
+    is_stand_in: bool
     placed: frozenset[str] | None
 
     def is_placed(self, joint: str) -> bool:
+        """Whether a joint to the parent has the origin of the entry."""
         return self.placed is None or joint in self.placed
 
 
 def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnostics) -> MacroResult | None:
     """Call a macro of a xacro file and read what it makes as a spec; None after a reported error.
 
-    The arguments of the use are for the macro, and for the file.
+    The arguments of the use are for the macro, and for the file. What is wrong inside is the macro's, so the call is
+    where `macro` is.
     """
     from linkforge_compile.importers.xacro import MacroCall
 
@@ -94,11 +100,17 @@ def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnosti
     if arguments.is_faulty:
         return None
     call = MacroCall(macro.name, {name: one.text for name, one in arguments.values.items()}, blocks)
-    scan = _Scan(arguments.parent.text)
-    use = replace(use, arguments=arguments.of_file, used_elsewhere=None, call=call)
+    scan = _Scan()
+    site = ImportSite(use.used.text, entry.macro.span)
+    use = replace(use, used=site, arguments=arguments.of_file, used_elsewhere=None, call=call)
     spec = open_xacro(use, loader, sink, scan.look_at)
     placed = None if arguments.is_placed_by_entry else frozenset(scan.joints)
-    return MacroResult(spec, arguments.prefix, arguments.parent, placed) if spec else None
+    if spec is None:
+        return None
+    if spec.tree.entries.keys().isdisjoint(("links", "frames")):
+        sink.report(MACRO_WITHOUT_LINKS.at(entry.macro.span, macro=macro.name))
+        return None
+    return MacroResult(spec, arguments.prefix, arguments.parent, arguments.is_stand_in, placed)
 
 
 def _find(name: YamlScalar, library: XacroLibrary, sink: Diagnostics) -> Macro | None:
@@ -129,6 +141,8 @@ class _Arguments:
     prefix: str = ""
     parent: YamlScalar = field(init=False)
     """The link to which the macro attaches its joint."""
+    is_stand_in: bool = False
+    """Whether that link is in place of one that nobody named."""
     is_placed_by_entry: bool = False
     """Whether the macro takes its place in the parameters of an `xyz` and an `rpy`, and the entry gives it instead."""
 
@@ -139,12 +153,10 @@ class _Arguments:
                 self.values[name] = argument
             elif not parameter:
                 self._give_to_file(name, argument)
-        roles = [*_roles(self.macro, self.library, frozenset())]
-        self._set_prefix(_own_prefix(self.macro, roles))
-        own = {*_parameters_with("link", self.macro, roles)}
-        parents = (name for name in _parameters_with("parent", self.macro, roles) if name not in own)
-        self._set_parent(next(parents, None))
-        self._set_place([next(_parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
+        roles = [*roles_of(self.macro, self.library)]
+        self._set_prefix(own_prefix(self.macro, roles))
+        self._set_parent(own_parent(self.macro, roles))
+        self._set_place([next(parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
 
     def _give_to_file(self, name: str, argument: XacroArgument) -> None:
         known = (*(one.name for one in self.macro.parameters), *self.library.arguments, *self.library.used)
@@ -154,7 +166,7 @@ class _Arguments:
         declared = Note(f"macro '{self.macro.name}' is declared here", self.macro.element.span)
         self._report(UNKNOWN_PARAMETER.at(argument.where, name=name, near=known, notes=[declared]))
 
-    def _set_prefix(self, own: _OwnPrefix | None) -> None:
+    def _set_prefix(self, own: OwnPrefix | None) -> None:
         entry = self.entry
         if own is None:
             self.prefix = entry.prefix
@@ -165,18 +177,23 @@ class _Arguments:
             text = entry.prefix.removesuffix("_") if own.adds_underscore else entry.prefix
             self.values[own.name] = XacroArgument(text, entry.macro.span)
 
-    def _set_parent(self, own: str | None) -> None:
-        entry = self.entry
-        self.parent = entry.parent or YamlScalar(STAND_IN, STAND_IN, entry.macro.span)
-        given = self.values.get(own) if own else None
+    def _set_parent(self, own: OwnParent | None) -> None:
+        entry, suffix = self.entry, own.suffix if own else ""
+        given = self.values.get(own.name) if own else None
+        self.is_stand_in = entry.parent is None and given is None
+        self.parent = entry.parent or _scalar((given.text if given else STAND_IN) + suffix, entry.macro.span)
         if own is None:
             return
+        where, text = self.parent.span, self.parent.text
         if given is None:
-            self.values[own] = XacroArgument(self.parent.text, self.parent.span)
-        elif entry.parent is None:
-            self.parent = YamlScalar(given.text, given.text, given.where)
+            self.values[own.name] = XacroArgument(text.removesuffix(suffix), where)
+            if not text.endswith(suffix):
+                facts = {"macro": self.macro.name, "parameter": own.name, "suffix": suffix, "found": text}
+                self._report(MACRO_ADDS_TO_PARENT.at(where, notes=[], **facts))
+        elif entry.parent is not None:
+            self._refuse(own.name, "parent")
         else:
-            self._refuse(own, "parent")
+            self.parent = _scalar(text, given.where)
 
     def _set_place(self, own: Sequence[str | None]) -> None:
         names = [name for name in own if name and name not in self.values]
@@ -224,6 +241,10 @@ class _Arguments:
         self.sink.report(diagnostic)
 
 
+def _scalar(text: str, span: Span) -> YamlScalar:
+    return YamlScalar(text, text, span)
+
+
 def _elements_in(text: str) -> int | None:
     """Return how many elements a text has side by side, and nothing else; None if it is no such XML."""
     try:
@@ -233,94 +254,19 @@ def _elements_in(text: str) -> int | None:
     return None if root.text.strip() or not root.children else len(root.children)
 
 
-# What a macro does with its parameters, as it is written
-
-
-class _OwnPrefix(NamedTuple):
-    """The parameter that a macro puts before its names; some add an underscore themselves."""
-
-    name: str
-    adds_underscore: bool
-
-
-class _Role(NamedTuple):
-    """What a parameter is for: the link above a joint, its place there, a link of the macro, or the start of names."""
-
-    parameter: str
-    kind: Literal["parent", "xyz", "rpy", "link", "prefix", "prefix_"]
-
-
-_ONLY = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
-_FIRST = re.compile(r"\s*\$\{\s*(\w+)\s*\}(_)?")
-
-
-def _parameters_with(kind: str, macro: Macro, roles: Iterable[_Role]) -> Iterator[str]:
-    return (role.parameter for role in roles if role.kind == kind and macro.parameter(role.parameter))
-
-
-def _own_prefix(macro: Macro, roles: Iterable[_Role]) -> _OwnPrefix | None:
-    named = [role for role in roles if "prefix" in role.kind and "prefix" in role.parameter]
-    name = next((role.parameter for role in named if macro.parameter(role.parameter)), None)
-    if name is None:
-        return None
-    return _OwnPrefix(name, all(role.kind == "prefix_" for role in named if role.parameter == name))
-
-
-def _roles(macro: Macro, library: XacroLibrary, callers: frozenset[str]) -> Iterator[_Role]:
-    """Yield what names in a macro are for, also in the macros that it calls."""
-    for element in macro.element.walk():
-        if element.tag == "joint":
-            yield from _roles_in_joint(element)
-        if element.tag == "link" and (found := _ONLY.fullmatch(element.get("name") or "")):
-            yield _Role(found[1], "link")
-        if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
-            yield _Role(found[1], "prefix_" if found[2] else "prefix")
-        called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None
-        if called and called.name not in callers:
-            inner = _roles(called, library, callers | {macro.name})
-            yield from filter(None, (_role_outside(role, called, element) for role in inner))
-
-
-def _roles_in_joint(joint: XmlElement) -> Iterator[_Role]:
-    """Yield the parameters that are the parent of a joint, and its place there."""
-    by_tag = {child.tag: child for child in joint.children}
-    parent = _ONLY.fullmatch(by_tag["parent"].get("link") or "") if "parent" in by_tag else None
-    if parent is None:
-        return
-    yield _Role(parent[1], "parent")
-    kinds: tuple[Literal["xyz", "rpy"], ...] = ("xyz", "rpy")
-    for kind in kinds:
-        if "origin" in by_tag and (found := _ONLY.fullmatch(by_tag["origin"].get(kind) or "")):
-            yield _Role(found[1], kind)
-
-
-def _role_outside(role: _Role, called: Macro, call: XmlElement) -> _Role | None:
-    """Return what a role of a parameter of a called macro is around the call."""
-    parameter, given = called.parameter(role.parameter), call.get(role.parameter)
-    if given is None:
-        return role if parameter and parameter.is_forwarded else None
-    if found := _ONLY.fullmatch(given):
-        return _Role(found[1], role.kind)
-    if "prefix" in role.kind and (found := _FIRST.match(given)):
-        return _Role(found[1], "prefix_" if found[2] else "prefix")
-    return None
-
-
 # What the call made
 
 
 class _Scan:
-    """Finds in the expanded document which joints to the parent have the block that stands for the entry's origin."""
+    """Finds in the expanded document which joints have the block that stands for the entry's origin."""
 
-    def __init__(self, parent: str) -> None:
-        self._parent = parent
+    def __init__(self) -> None:
         self.joints: set[str] = set()
 
     def look_at(self, document: XmlDocument) -> None:
         from linkforge_compile.importers.xacro.process import MARK
 
         for joint in document.root.children:
-            links = [child.get("link") for child in joint.children if child.tag == "parent"]
             origins = [child for child in joint.children if child.tag == "origin"]
-            if joint.tag == "joint" and links == [self._parent] and any(one.get(MARK) == "" for one in origins):
+            if joint.tag == "joint" and any(one.get(MARK) == "" for one in origins):
                 self.joints.add(joint.get("name") or "")

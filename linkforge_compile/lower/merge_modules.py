@@ -24,6 +24,7 @@ from linkforge_compile.lower.mount import (
     lower_module_joint,
     module_fields,
     single_mount,
+    take_shared_link,
     without_virtual_joint,
 )
 from linkforge_compile.lower.object_context import report_duplicate
@@ -106,14 +107,16 @@ class ModuleMerger:
         final_root = None if root is None else module.prefix + root
         has_valid_prefix = self._has_valid_prefix(module)
         is_mergeable = has_valid_prefix and (root is not None or bool(lowered.unresolved))
+        taken: tuple[ModuleJoint, ...] = ()
         if component and is_mergeable:
             component.prefix_all(module.prefix)
+            taken = take_shared_link(component, module, self._sink)
         clashes = tuple(self._name_clashes(component)) if component and is_mergeable else ()
         mount = lowered.mount
         if mount and not has_valid_prefix:
             mount = mount._replace(joint=None, gazebo=())
         # With a clash the module is left out, so that it does not matter whether its joint is at its root.
-        joint = self._joint_of(module, mount, None if clashes else final_root)
+        joints = taken or (self._joint_of(module, mount, None if clashes else final_root),)
         is_merged = False
         if component and not is_mergeable:
             self._leave_out(component, module.prefix, lowered.unresolved_alone)
@@ -121,11 +124,12 @@ class ModuleMerger:
             report_name_clashes(module, clashes, self._sink)
             self._leave_out(component, "", lowered.unresolved_alone.with_prefix(module.prefix))
         elif component:
-            is_attached = joint is not None or final_root in self._children
+            is_attached = joints != (None,) or final_root in self._children
             unresolved = lowered.unresolved_alone.with_prefix(module.prefix)
             is_merged = self._merge(component, module, unresolved, final_root if is_attached else None)
-        if joint and not (is_merged and self._add_joint(joint)):
-            self._unresolved |= unresolved_of([joint.name])
+        for joint in filter(None, joints):
+            if not (is_merged and self._add_joint(joint)):
+                self._unresolved |= unresolved_of([joint.name])
 
     def finish(self, *, is_compiled_file: bool) -> tuple[Lowered, tuple[ModuleJoint, ...]]:
         """Return the robot, and all of its mounts; the compiled file is attached to the world by its mount."""

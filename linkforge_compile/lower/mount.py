@@ -159,12 +159,34 @@ def attach_mount(mount: ModuleJoint, module: Instance, root: str | None, sink: D
     if entry is None or final.joint is None:
         return final
     if (node := entry.node.get("joint")) is not None:
-        entry.report(MOUNT_AND_JOINT, node, owner=entry.owner, joint=mount.name)
+        entry.report(MOUNT_AND_JOINT, node, owner=entry.owner, joint=mount.name, section="mount")
     parent, origin = entry.text("parent"), lower_pose(entry)
     if parent is None or not _is_at_root(final, root, module.prefix, sink):
         return final._replace(joint=None)
     joint = final.joint.with_source(_with_ends_of(entry.node, final.joint.source))
     return final._replace(joint=entry.build(lambda: joint.with_fields(parent=parent, origin=origin)))
+
+
+def take_shared_link(robot: Robot, module: Instance, sink: Diagnostics) -> tuple[ModuleJoint, ...]:
+    """Take the link that is no link of a module out of its robot, and return the joints to it, now to the `parent`.
+
+    The robot has its final names. Returns nothing for a module of which all links are its own.
+    """
+    entry = module_fields(module, sink)
+    if entry is None or module.shared_link is None:
+        return ()
+    link, parent = module.prefix + module.shared_link, entry.text("parent")
+    joints = [joint for joint in robot.joints if joint.parent == link]
+    if (node := entry.node.get("joint")) is not None:
+        entry.report(
+            MOUNT_AND_JOINT, node, owner=entry.owner, joint=joints[0].name.removeprefix(module.prefix), section="joints"
+        )
+    robot.joints = tuple(joint for joint in robot.joints if joint.parent != link)
+    robot.links = tuple(one for one in robot.links if one.name != link)
+    return tuple(
+        ModuleJoint(joint.name, joint.with_fields(parent=parent).with_source(joint.source) if parent else None)
+        for joint in joints
+    )
 
 
 def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:

@@ -75,6 +75,42 @@ PARTS = f"""{ROOT}>
     <limit lower="0" upper="${{width}}" effort="1" velocity="1"/>
   </joint>
 </xacro:macro>
+<xacro:macro name="bumpers" params="parent:=base *origin">
+  <link name="pad"/>
+  <link name="ring"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>
+  <link name="tip"/>
+  <joint name="pad_joint" type="fixed">
+    <xacro:insert_block name="origin"/><parent link="${{parent}}"/><child link="pad"/>
+  </joint>
+  <joint name="ring_joint" type="revolute">
+    <origin xyz="0 0 0.5"/><parent link="${{parent}}"/><child link="ring"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <joint name="tip_joint" type="fixed">
+    <xacro:insert_block name="origin"/><parent link="ring"/><child link="tip"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="coupling" params="parent *origin">
+  <link name="plate"/>
+  <link name="tool"/>
+  <joint name="plate_joint" type="fixed"><parent link="${{parent}}"/><child link="plate"/></joint>
+  <joint name="tool_joint" type="fixed">
+    <xacro:insert_block name="origin"/><parent link="plate"/><child link="tool"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="sonar" params="name parent">
+  <link name="${{name}}_link"/>
+  <link name="${{name}}_cone"/>
+  <joint name="${{name}}_cone_joint" type="fixed">
+    <parent link="${{name}}_link"/><child link="${{name}}_cone"/>
+  </joint>
+  <joint name="${{name}}_joint" type="fixed">
+    <origin xyz="0 0 0.1"/><parent link="${{parent}}_link"/><child link="${{name}}_link"/>
+  </joint>
+</xacro:macro>
+<xacro:macro name="heavy" params="m"><inertial><mass value="${{m}}"/></inertial></xacro:macro>
+<xacro:macro name="nothing" params="m"><xacro:property name="n" value="${{m}}"/></xacro:macro>
+<xacro:macro name="clamp" params="parent"><xacro:jaw parent="${{parent}}"/></xacro:macro>
 <xacro:macro name="mast" params="prefix parent height:=^|0.5 *origin">
   <xacro:lidar prefix="${{prefix}}top_" parent="${{parent}}" radius="0.05">
     <xacro:insert_block name="origin"/>
@@ -150,6 +186,14 @@ MODULES_AND_CALLS = {
         "a: {macro: bracket, parent: deck, prefix: '', origin: [0, 0, 1], with: {name: mid}}",
         '<xacro:bracket name="mid" parent="deck"><origin xyz="0 0 1"/></xacro:bracket>',
     ),
+    "several joints to the parent": (
+        "a: {macro: bumpers, parent: deck, prefix: '', origin: [0, 20 cm, 0]}",
+        '<xacro:bumpers parent="deck"><origin xyz="0 0.2 0"/></xacro:bumpers>',
+    ),
+    "a place further on": (
+        "a: {macro: coupling, parent: deck, prefix: '', origin: [0, 20 cm, 0]}",
+        '<xacro:coupling parent="deck"><origin xyz="0 0.2 0"/></xacro:coupling>',
+    ),
     "an argument of the file": (
         "front: {macro: lidar, parent: deck, with: {color: [1, 0, 0, 1]}}",
         '<xacro:lidar prefix="front_" parent="deck"><origin xyz="0 0 0"/></xacro:lidar>',
@@ -197,6 +241,38 @@ def test_a_prefix_reaches_the_texts_of_plugins(cell: Cell):
     assert "<topic>/rear_scan</topic>" in urdf
 
 
+def test_several_joints_to_the_parent_get_the_prefix(cell: Cell):
+    robot = cell(
+        "left: {macro: bumpers, parent: deck, override: {joints: {ring_joint: {limits: {upper: 2}}}}}",
+        "right: {macro: bumpers, parent: left_ring}",
+    ).result()
+    ends = {joint.name: (joint.parent, joint.child) for joint in robot.joints}
+    assert ends == {
+        "left_pad_joint": ("deck", "left_pad"),
+        "left_ring_joint": ("deck", "left_ring"),
+        "left_tip_joint": ("left_ring", "left_tip"),
+        "right_pad_joint": ("left_ring", "right_pad"),
+        "right_ring_joint": ("left_ring", "right_ring"),
+        "right_tip_joint": ("right_ring", "right_tip"),
+    }
+    assert [link.name for link in robot.links].count("deck") == 1
+    upper = {joint.name: joint.limits.upper for joint in robot.joints if joint.limits}
+    assert upper == {"left_ring_joint": 2, "right_ring_joint": 1}
+
+
+@pytest.mark.parametrize(
+    "entry",
+    ["parent: rail_link, with: {name: front}", "with: {name: front, parent: rail}"],
+    ids=["the whole name in `parent`", "as the macro takes it in `with`"],
+)
+def test_a_macro_may_compose_the_name_of_the_link_above(entry: str, folder: Path):
+    spec = folder / "cell.robot.yaml"
+    lines = f"modules: {{b: {{use: parts.xacro, macro: sonar, {entry}}}}}\n"
+    spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{rail_link: }}\n{lines}", "utf-8")
+    joint = next(one for one in compile_file(spec).result().joints if one.name == "b_front_joint")
+    assert (joint.parent, joint.child, joint.origin.xyz.z) == ("rail_link", "b_front_link", 0.1)
+
+
 def test_an_override_has_the_names_of_the_robot(cell: Cell):
     module = "front: {macro: lidar, parent: deck, override: {links: {front_laser: {inertial: {mass: 1}}}}}"
     laser = next(link for link in cell(module).result().links if link.name == "front_laser")
@@ -236,6 +312,30 @@ FAULTS = {
         5,
         "parameter 'prefix' of the macro is 'prefix' of module 'a'",
     ),
+    "a parent with another end": (
+        "a: {macro: sonar, parent: deck, with: {name: a}}",
+        "LF8046",
+        5,
+        "macro 'sonar' adds '_link' to its 'parent', so 'parent' is a link whose name ends in that, found 'deck'",
+    ),
+    "a macro for the inside of a link": (
+        "a: {macro: heavy, parent: deck, with: {m: 1}}",
+        "LF8047",
+        5,
+        "'heavy' makes no",
+    ),
+    "a macro that makes nothing": (
+        "a: {macro: nothing, parent: deck, with: {m: 1}}",
+        "LF8047",
+        5,
+        "'nothing' makes no",
+    ),
+    "joints beside the entry's": (
+        "a: {macro: bumpers, parent: deck, joint: weld}",
+        "LF5324",
+        5,
+        "module 'a' has its own mount 'pad_joint'; leave 'joint' out, or write 'override: {joints: {pad_joint: …}}'",
+    ),
     "an origin without effect": (
         "a: {macro: wheel, parent: deck, origin: [0, 0, 1], with: {name: a, xyz: 0 0 0, shape: <box size='1 1 1'/>}}",
         "LF8038",
@@ -258,6 +358,18 @@ def test_a_fault_in_a_macro_is_at_its_line_and_names_the_call(cell: Cell):
     assert (fault.code.id, fault.span.file.path and fault.span.file.path.name) == ("LF8032", "parts.xacro")
     assert 'length="${radius * 1.2}"' in fault.span.file.text.splitlines()[fault.span.line - 1]
     assert [(note.message, note.span and note.span.line) for note in fault.notes] == [("used here", 5)]
+
+
+def test_a_macro_that_needs_another_file_tells_the_way_out(cell: Cell):
+    (fault,) = cell("a: {macro: clamp, parent: deck}").diagnostics
+    assert fault.message.startswith("xacro knows no macro named 'jaw' here")
+    assert "write a xacro that includes both files" in fault.notes[0].message
+
+
+def test_a_missing_file_is_told_at_its_name(folder: Path):
+    spec = folder / "cell.robot.yaml"
+    spec.write_text("linkforge: 1\nname: cell\nmodules:\n  a:\n    macro: lidar\n    use: part.xacro\n", "utf-8")
+    assert codes(compile_file(spec)) == [("LF3001", 6)]
 
 
 def test_what_the_user_writes_is_no_expression():

@@ -68,6 +68,15 @@ MACRO_PLACES_ITSELF = Code(
     _E,
     "macro '{macro}' places itself, so 'origin' has no effect; leave it out, and write in 'with' what the macro takes",
 )
+MACRO_ADDS_TO_PARENT = Code(
+    "LF8046",
+    _E,
+    "macro '{macro}' adds '{suffix}' to its '{parameter}', so 'parent' is a link whose name ends in that, "
+    "found '{found}'",
+)
+MACRO_WITHOUT_LINKS = Code(
+    "LF8047", _E, "macro '{macro}' makes no link, so it is no module; a macro that makes a part of a robot may call it"
+)
 MACROS_ONLY = Code(
     "LF8039", _E, "'{path}' makes nothing, it declares macros; use one in a spec: {{use: {path}, macro: {macro}}}"
 )

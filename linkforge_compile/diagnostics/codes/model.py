@@ -105,7 +105,7 @@ TWO_MOUNTS = Code("LF5323", _E, "a robot has only one mount, and '{joint}' is a 
 MOUNT_AND_JOINT = Code(
     "LF5324",
     _E,
-    "{owner} has its own mount '{joint}'; leave 'joint' out, or write 'override: {{mount: {{{joint}: …}}}}'",
+    "{owner} has its own mount '{joint}'; leave 'joint' out, or write 'override: {{{section}: {{{joint}: …}}}}'",
 )
 
 # LF54xx: the tree of links
