@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from linkforge_compile.migration.attachment import find_attachment
 from linkforge_compile.migration.constants import constant_of
-from linkforge_compile.migration.evaluate import Context, Evaluator, MacroCalls
+from linkforge_compile.migration.evaluate import Called, Context, Evaluator, MacroCalls
 from linkforge_compile.migration.kept import kept_call
 from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value
 from linkforge_compile.migration.symbols import (
@@ -32,17 +32,6 @@ from linkforge_compile.migration.symbols import (
 )
 from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, walk
 from linkforge_compile.source.xml_tree import XmlElement
-
-
-@dataclass(eq=False)
-class Called:
-    """One call of a macro: the values of its parameters, and what it expanded to."""
-
-    macro: Macro
-    element: XmlElement
-    context: Context
-    arguments: dict[str, Parts] = field(default_factory=dict)
-    content: list[Content] = field(default_factory=list)
 
 
 @dataclass(eq=False)
@@ -97,7 +86,7 @@ class Calls(MacroCalls):
         self.called.append(called)
         # Of a macro that is called once, properties are as good as those around it.
         is_single = not context.is_inside and self._plan.single.issuperset(
-            (macro.body, *(one.macro.body for one in context.calls if isinstance(one, Called)))
+            (macro.body, *(one.macro.body for one in context.calls))
         )
         scope: Table[Property] = Table(symbols, file=context.file if is_single else None)
         self._bind(called, values, scope, evaluator)
@@ -262,7 +251,7 @@ class Calls(MacroCalls):
         if len(parts) != 1 or not isinstance(parts[0], Reference):
             return
         symbol = parts[0].symbol
-        called = next((one for one in context.calls if isinstance(one, Called)), None)
+        called = context.calls[0] if context.calls else None
         if not symbol.is_argument and called is not None and symbol.wish in called.arguments:
             parts = called.arguments[symbol.wish]
             if parts in ((), ("",)):

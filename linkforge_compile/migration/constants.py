@@ -69,6 +69,30 @@ def constant_of(node: ast.expr) -> object:
         raise NotConstantError(frozenset()) from None
 
 
+def example_of(node: ast.expr) -> object:
+    """Return what a part of data is for the given arguments; UNSET where that is not known."""
+    match node:
+        case Reference(symbol=symbol) if symbol.constant is not UNSET:
+            return symbol.constant
+        case Reference(symbol=symbol) if symbol.role == "variable" and symbol.value and len(symbol.value) == 1:
+            value = symbol.value[0]
+            return example_of(value) if isinstance(value, ast.expr) else UNSET
+        case Reference(symbol=symbol):
+            return symbol.example
+        case ast.Attribute(value=whole, attr=key):
+            return _item(example_of(whole), key)
+        case ast.Subscript(value=whole, slice=index):
+            return _item(example_of(whole), literal_of(index))
+    return UNSET
+
+
+def _item(whole: Any, key: Any) -> object:
+    try:
+        return whole[key] if isinstance(whole, dict | list) else UNSET
+    except (LookupError, TypeError):
+        return UNSET
+
+
 def unknown_in(node: ast.expr) -> frozenset[Any]:
     """Return the symbols of an expression that have no known value."""
     return frozenset(symbol for symbol in symbols_in(node) if symbol.constant is UNSET)

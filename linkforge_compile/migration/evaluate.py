@@ -54,9 +54,20 @@ class Context:
     folder: Path
     macros: Table[Macro]
     symbols: Table[Property]
-    calls: tuple[object, ...] = ()
+    calls: tuple[Called, ...] = ()
     is_inside: bool = False
     """Whether an element is around."""
+
+
+@dataclass(eq=False)
+class Called:
+    """One call of a macro: the values of its parameters, and what it expanded to."""
+
+    macro: Macro
+    element: XmlElement
+    context: Context
+    arguments: dict[str, Parts] = field(default_factory=dict)
+    content: list[Content] = field(default_factory=list)
 
 
 class MacroCalls(ABC):
@@ -157,9 +168,13 @@ class Evaluator(ABC):
     def variable(
         self, name: str, node: ast.expr, file: FileDraft, comment: str = "", place: tuple[str, int] = ("", 0)
     ) -> ast.expr:
-        """Return a new variable of a spec; data and variables stay what they are."""
-        if isinstance(node, Reference) and node.symbol.kind == MAP and node.symbol.wish == name:
-            return node
+        """Return a new variable of a spec; data get the name of the first property that has them."""
+        if isinstance(node, Reference) and node.symbol.kind == MAP and node.symbol.role != "parameter":
+            data = node.symbol
+            if not data.is_named:
+                data.wish, data.is_named, data.comment = name, True, data.comment or comment
+            if data.wish == name:
+                return node
         known: object = UNSET
         with suppress(NotConstantError):
             known = constant_of(node)
@@ -198,8 +213,27 @@ class Evaluator(ABC):
                 return refer(symbol)
         wish = _name_of_data(address)
         symbol = Symbol(wish, "data", address, known, MAP)
+        if known is UNSET:
+            with suppress(NotConstantError, CannotTranslateError):
+                symbol.example = self.sources.data(context.folder / self.path_text(self._as_given(parts, context)))
         context.file.symbols.append(symbol)
         return refer(symbol)
+
+    def _as_given(self, parts: Parts, context: Context) -> Parts:
+        """Return a text with the values that the given arguments lead to."""
+        made: Parts = ()
+        for part in parts:
+            if not isinstance(part, Reference):
+                made = joined(made, (part,))
+                continue
+            symbol, around = part.symbol, context
+            value = symbol.value
+            if symbol.is_argument:
+                value = (self.given[symbol.wish],) if symbol.wish in self.given else value
+            elif symbol.role == "parameter" and context.calls and symbol.wish in context.calls[0].arguments:
+                value, around = context.calls[0].arguments[symbol.wish], context.calls[0].context
+            made = joined(made, (part,) if value is None else self._as_given(value, around))
+        return made
 
     def _unreadable(self, known: object, address: Parts, context: Context) -> ast.expr:
         """Return the data of a file that no spec can read as a variable."""

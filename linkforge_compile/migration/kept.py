@@ -18,6 +18,7 @@ from linkforge_compile.syntax.writer import write
 
 _MODULE = "robot"
 
+_ARGUMENT = re.compile(r"\$\(arg\s+(\w+)\s*\)")
 _NAME = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
 
 
@@ -55,11 +56,15 @@ def parameter_names(arguments: Iterable[str]) -> dict[str, str]:
     return {name: names[symbol] for name, symbol in symbols.items()}
 
 
-def kept_spec(xacro: Path, folder: Path, arguments: Mapping[str, str], head: str) -> str:
-    """Return a spec in a folder that uses a xacro as its only module, with the arguments as parameters."""
+def kept_spec(xacro: Path, folder: Path, arguments: Mapping[str, str], head: str, robot: str) -> str:
+    """Return a spec in a folder that uses a xacro as its only module, with the arguments as parameters.
+
+    `robot` is the name of the robot as the xacro has it.
+    """
     where = SourceFile("<migrated>", "").whole
     names = parameter_names(arguments)
-    stem = xacro.name.partition(".")[0]
+    name = _ARGUMENT.sub(lambda found: f"$({names[found[1]]})" if found[1] in names else found[0], robot)
+    is_known = name and "${" not in name and "$(arg" not in name
     given = {name: scalar(f"$({names[name]})", where) for name in arguments}
     entry = {
         "use": scalar(relative_path(folder, xacro), where),
@@ -69,7 +74,7 @@ def kept_spec(xacro: Path, folder: Path, arguments: Mapping[str, str], head: str
     declared = {names[name]: scalar(default, where) for name, default in arguments.items()}
     tree = {
         "linkforge": scalar("1", where, is_text=False),
-        "name": scalar(stem, where),
+        "name": scalar(name if is_known else xacro.name.partition(".")[0], where),
         "parameters": map_of(declared, where) if declared else None,
         "modules": map_of({_MODULE: map_of(entry, where)}, where),
     }

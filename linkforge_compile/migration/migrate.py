@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from pathlib import Path
 from typing import TypedDict
 
 from linkforge_compile.migration.attachment import find_attachment
-from linkforge_compile.migration.calls import Called, Calls, Plan, no_module
+from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import domain_of
 from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
 from linkforge_compile.migration.files import FileMaker
 from linkforge_compile.migration.inertia import Place
@@ -108,9 +109,9 @@ def migrate(
     given: Mapping[str, str],
     sources: Sources,
     settled: Settled,
-    head: str = "",
+    head: Callable[[], str] = str,
 ) -> Migration:
-    """Return the specs that a xacro becomes; `head` begins that of the robot.
+    """Return the specs that a xacro becomes; `head` gives what begins that of the robot.
 
     Raises:
         CannotTranslateError: if it cannot be translated at all.
@@ -128,7 +129,7 @@ def migrate(
     raise CannotTranslateError("no form of it in the language was found")
 
 
-def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head: str) -> Migration:
+def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head: Callable[[], str]) -> Migration:
     inline, pinned = settled.inline, settled.pinned
     first = Calls(Plan())
     Expander(sources, given, pinned, first).expand()
@@ -216,7 +217,9 @@ def _kind(node: ast.expr) -> str:
     return MAP if isinstance(value, dict) else kind_of(constant(value))
 
 
-def _written(robot: FileDraft, expander: Expander, calls: Calls, settled: Settled, head: str) -> Migration:
+def _written(
+    robot: FileDraft, expander: Expander, calls: Calls, settled: Settled, head: Callable[[], str]
+) -> Migration:
     robot.stem = stem_of(expander.sources.main)
     specs: dict[FileDraft, Spec] = {}
     stems = {robot.stem}
@@ -239,7 +242,7 @@ def _written(robot: FileDraft, expander: Expander, calls: Calls, settled: Settle
             raise NoModuleError(_body_of(module), error.reason) from None
         except NotConstantError as error:
             raise no_module(module, error) from None
-    specs[robot] = FileMaker(robot, specs, {}, **options).spec(head)
+    specs[robot] = FileMaker(robot, specs, {}, **options).spec(head())
     files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
     return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, settled.pinned, settled.inline)
 

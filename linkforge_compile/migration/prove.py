@@ -134,15 +134,17 @@ class Migrator:
 
     def _migrated(self, settled: Settled) -> Migration | CannotTranslateError:
         try:
-            return migrate(self.given, self.sources, settled, self._head())
+            return migrate(self.given, self.sources, settled, self._head)
         except CannotTranslateError as error:
             return error
 
     def _head(self) -> str:
+        """Return the command that makes the specs, with the packages that it needs, as a comment."""
         from linkforge_compile.importers.origin import relative_path
 
         options = [f"{name}:={value}" for name, value in self.given.items()]
-        for name, place in self.loader.packages.items():
+        needed = {name: place for name, place in self.loader.packages.items() if name in self.sources.found}
+        for name, place in needed.items():
             options += ("--package", f"{name}={relative_path(self.folder, place)}")
         command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", ".")
         return f"# {on_one_line(shlex.join(command))}\n\n"
@@ -158,7 +160,9 @@ class Migrator:
         faults = [one for one in self.sink.sorted() if one.severity is Severity.ERROR and error.where is None]
         listing, _ = parameters_of(self.main, packages=self.loader.packages, allow_outside=True)
         known = {one.name: one.default or "" for one in listing.parameters} if listing else {}
-        text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head())
+        document = self.sources.documents.get(self.main.absolute())
+        robot = (document.root.get("name") if document else None) or ""
+        text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head(), robot)
         name = f"{stem_of(self.main)}.robot.yaml"
         with self._in_files({name: text}) as folder:
             comparisons = prover.compare(folder / name, parameter_names(known), [dict(self.given)])

@@ -33,6 +33,18 @@ _CALLED: Mapping[str, Callable[..., Any]] = {
 _NAMESPACES = ("math", "python", "xacro")
 
 
+_KINDS = {one.__name__: one for one in (str, int, float, bool, list, dict, tuple)}
+
+
+def _kinds(node: ast.expr) -> tuple[type, ...]:
+    """Return the classes that an expression names, the second argument of `isinstance`."""
+    named = node.elts if isinstance(node, ast.Tuple) else [node]
+    names = [one.attr if isinstance(one, ast.Attribute) else getattr(one, "id", "") for one in named]
+    if not _KINDS.keys() >= {*names}:
+        raise UnknownValueError
+    return tuple(_KINDS[name] for name in names)
+
+
 class UnknownValueError(Exception):
     """The expression needs something that is not known, or that is not computed."""
 
@@ -76,6 +88,10 @@ class PythonValues:
                 return [self._value(item, one) for one in self._rounds(generators, local)]
             case ast.Subscript() | ast.Attribute():
                 return self._part(node, local)
+            case ast.Call(func=ast.Name(id="isinstance") | ast.Attribute(attr="isinstance"), args=[value, kind]):
+                return isinstance(self._value(value, local), _kinds(kind))
+            case ast.Call(func=ast.Name(id="dict"), args=[], keywords=keywords) if keywords:
+                return {str(one.arg): self._value(one.value, local) for one in keywords if one.arg}
             case ast.Call(keywords=[]):
                 return self._call(node, local)
         return self._operation(node, local)

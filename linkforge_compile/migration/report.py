@@ -15,8 +15,8 @@ from linkforge_compile.diagnostics.codes.importing import (
     MIGRATION_UNPROVED,
 )
 from linkforge_compile.migration.attachment import parts_of
-from linkforge_compile.migration.calls import Called
 from linkforge_compile.migration.combinations import Arguments
+from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.migrate import Migration
 from linkforge_compile.migration.proof import Comparison
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from glob import glob
 from pathlib import Path
 from typing import Any
@@ -42,6 +42,11 @@ class Sources:
     def data_files(self) -> tuple[Path, ...]:
         """The files of data that were read."""
         return tuple(self._data)
+
+    @property
+    def found(self) -> Collection[str]:
+        """The packages that `$(find)` has named."""
+        return self._found
 
     def open(self, path: Path) -> XmlDocument:
         """Return a file as elements.

@@ -71,6 +71,8 @@ class Symbol:
     constant: object = UNSET
     kind: str = UNKNOWN
     comment: str = ""
+    example: object = UNSET
+    """Its value for the given arguments, if that is all that is known: what data are like."""
     size: int = 3
     """The number of components of a vector."""
     dimensions: set[str] = field(default_factory=set)
@@ -80,6 +82,8 @@ class Symbol:
     place: tuple[str, int] = ("", 0)
     """The file in which it was defined, and the index in it."""
     where: Span | None = None
+    is_named: bool = False
+    """Whether data have the name of a property."""
     is_data_path: bool = False
     """Whether it names a file of data."""
     is_written: bool = False

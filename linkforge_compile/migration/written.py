@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from xml.sax.saxutils import escape, quoteattr
 
 from linkforge_compile.migration.conditions import WORDS, Outcomes, decided, holds
-from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.constants import constant_of, example_of
 from linkforge_compile.migration.dimensions import Placement
 from linkforge_compile.migration.logic import folded
 from linkforge_compile.migration.placeholders import Placeholders, key_of
@@ -172,7 +172,7 @@ class Writer:
             literal = literal_of(part)
             if literal is not UNSET:
                 pieces.append(_python_text(literal))
-            elif kind_of(part) == BOOLEAN and not getattr(part, "is_as_given", False):
+            elif _is_boolean(part) and not getattr(part, "is_as_given", False):
                 word = ast.IfExp(test=part, body=constant("True"), orelse=constant("False"))
                 pieces.append(self.placeholders.number(word))
             else:
@@ -190,6 +190,11 @@ class Writer:
         if isinstance(known, float) and str(known) != number_text(known):
             return str(known)
         return self.placeholders.number(node)
+
+
+def _is_boolean(node: ast.expr) -> bool:
+    """Whether an expression is a boolean, also one of data, which Python writes in its own words."""
+    return kind_of(node) == BOOLEAN or isinstance(example_of(node), bool)
 
 
 def _bare(node: ast.expr) -> list[Reference]:

@@ -27,10 +27,16 @@ def write(folder: Path, **files: str) -> Path:
     return folder / "robot.xacro"
 
 
-def migrated(folder: Path, text: str, given: dict[str, str] | None = None, **others: str) -> Migrated:
+def migrated(
+    folder: Path,
+    text: str,
+    given: dict[str, str] | None = None,
+    packages: dict[str, Path] | None = None,
+    **others: str,
+) -> Migrated:
     """Migrate a xacro, and require that the specs are proved for all combinations of its arguments."""
     main = write(folder, robot=text, **others)
-    loader = Settings((), {}).loader(main)
+    loader = Settings((), packages or {}).loader(main)
     proved = Migrator(main, given or {}, folder / "specs", loader, Diagnostics()).run()
     assert proved.is_equal, [one.message for one in proved.diagnostics]
     assert all(one.is_equal for one in proved.comparisons), proved.comparisons

@@ -32,3 +32,40 @@ variables:
         in made.robot
     )
     assert "upper: $(limits.elbow.upper)" in made.robot
+
+
+def test_a_boolean_of_data_whose_file_an_argument_names_is_written_as_python_writes_it(tmp_path: Path):
+    package = tmp_path / "arm_description"
+    package.mkdir()
+    (package / "hardware.yaml").write_text("open_loop: true\nport: 30200\n", "utf-8")
+    text = """
+<xacro:arg name="config" default="$(find arm_description)/hardware.yaml"/>
+<xacro:macro name="arm" params="config_file">
+  <xacro:property name="hardware" value="${xacro.load_yaml(config_file)}"/>
+  <link name="base"/>
+  <link name="arm"/>
+  <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/></joint>
+  <ros2_control name="arm" type="system">
+    <hardware>
+      <plugin>p/P</plugin>
+      <param name="open_loop">${hardware['open_loop']}</param>
+      <param name="port">${hardware['port']}</param>
+    </hardware>
+    <joint name="elbow"><command_interface name="position"/></joint>
+  </ros2_control>
+</xacro:macro>
+<xacro:arm config_file="$(arg config)"/>
+"""
+    module = migrated(tmp_path, text, packages={"arm_description": package}).files["arm.robot.yaml"]
+    assert "data:\n  hardware: $(config_file)\n" in module
+    assert "open_loop: $('True' if hardware.open_loop else 'False')" in module
+
+
+def test_python_that_asks_for_the_class_of_a_value_is_computed(tmp_path: Path):
+    text = """
+<xacro:property name="fingers" value="${dict(thumb=1, index=2)}"/>
+<xacro:if value="${python.isinstance(fingers, dict) and not python.isinstance(fingers, (list, str))}">
+  <link name="hand_${fingers['index']}"/>
+</xacro:if>
+"""
+    assert "links:\n  hand_2: {}\n" in migrated(tmp_path, text).robot

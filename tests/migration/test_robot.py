@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
-from tests.migration.migrated import migrated
+from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.migration.prove import Migrator
+from tests.migration.migrated import migrated, write
 
 LINK = '<link name="base"><visual><geometry><box size="1 1 1"/></geometry></visual></link>'
 
@@ -85,3 +88,50 @@ def test_alternatives_inside_of_an_element_are_merged(tmp_path: Path):
     ).robot
     assert "visual: [{when: $(mesh), mesh: package://p/base.stl}, {when: $(not mesh), sphere: 1}]" in spec
     assert "mass: $(mass * 2)" in spec
+
+
+def test_a_second_ros2_control_of_the_same_name_is_not_lost(tmp_path: Path):
+    control = """
+<ros2_control name="system" type="system">
+  <hardware><plugin>p/P</plugin><param name="side">SIDE</param></hardware>
+  <joint name="SIDE"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+    arms = """
+<link name="base"/>
+<link name="left_arm"/>
+<link name="right_arm"/>
+<joint name="left" type="continuous"><parent link="base"/><child link="left_arm"/></joint>
+<joint name="right" type="continuous"><parent link="base"/><child link="right_arm"/></joint>
+"""
+    made = migrated(tmp_path, arms + control.replace("SIDE", "left") + control.replace("SIDE", "right"))
+    assert "side: left" in made.robot
+    assert '<param name="side">right</param>' in made.robot
+
+
+def test_a_robot_that_stays_a_xacro_has_the_name_of_the_xacro(tmp_path: Path):
+    main = tmp_path / "robot.xacro"
+    main.write_text(
+        """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="$(arg name)_arm">
+<xacro:arg name="name" default="left"/>
+<link name="base"/>
+<xacro:element xacro:name="link" name="tip"/>
+<joint name="tip_joint" type="fixed"><parent link="base"/><child link="tip"/></joint>
+</robot>
+""",
+        "utf-8",
+    )
+    proved = Migrator(main, {"name": "left"}, tmp_path / "specs", Settings((), {}).loader(main), Diagnostics()).run()
+    assert proved.is_equal, [one.message for one in proved.diagnostics]
+    assert "\nname: $(base_name)_arm\n" in proved.files["robot.robot.yaml"]
+
+
+def test_the_command_that_makes_the_specs_names_the_packages_that_they_need(tmp_path: Path):
+    for name in ("arm_description", "other_description"):
+        (tmp_path / name / "urdf").mkdir(parents=True)
+    (tmp_path / "arm_description" / "urdf" / "part.xacro").write_text("<robot><link name='base'/></robot>", "utf-8")
+    main = write(tmp_path, robot='<xacro:include filename="$(find arm_description)/urdf/part.xacro"/>')
+    packages = {name: tmp_path / name for name in ("arm_description", "other_description")}
+    proved = Migrator(main, {}, tmp_path / "specs", Settings((), packages).loader(main), Diagnostics()).run()
+    text = proved.files["robot.robot.yaml"]
+    assert text.startswith("# linkforge migrate ../robot.xacro --package arm_description=../arm_description -o .\n")
