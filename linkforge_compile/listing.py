@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
@@ -16,7 +16,8 @@ from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.load.locations import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
-from linkforge_compile.load.xacro_library import MacroParameter, read_library
+from linkforge_compile.load.macro_roles import fields_of
+from linkforge_compile.load.xacro_library import Macro, XacroLibrary, read_library
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 
@@ -31,6 +32,7 @@ class ListedParameter(NamedTuple):
     - `unit`: the SI unit of `value`, `minimum`, `maximum` and `choices`, None for none.
     - `default`: as written, None for a required parameter.
     - `value`: the computed default, None if it depends on parameters without a value.
+    - `field`: the field of an entry of `modules` that gives it, None for a parameter that `with` gives.
     """
 
     name: str
@@ -43,10 +45,11 @@ class ListedParameter(NamedTuple):
     choices: list[Plain] | None = None
     pattern: str | None = None
     description: str = ""
+    field: str | None = None
 
     @property
     def is_required(self) -> bool:
-        return self.default is None
+        return self.default is None and self.field is None
 
     @property
     def computed(self) -> str:
@@ -216,10 +219,12 @@ def list_arguments(path: Path, loader: Loader, sink: Diagnostics, used: ImportSi
     return Listing(
         name if name and "$" not in name else path.name,
         parameters=(*declared, *undeclared),
-        macros={one.name: tuple(map(_listed_macro_parameter, one.parameters)) for one in library.macros.values()},
+        macros={one.name: tuple(_listed_of_macro(one, library)) for one in library.macros.values()},
     )
 
 
-def _listed_macro_parameter(parameter: MacroParameter) -> ListedParameter:
-    kind = "string" if parameter.block is None else "XML"
-    return ListedParameter(parameter.name, kind, default=parameter.written_default)
+def _listed_of_macro(macro: Macro, library: XacroLibrary) -> Iterator[ListedParameter]:
+    fields = fields_of(macro, library)
+    for one in macro.parameters:
+        kind = "string" if one.block is None else "XML"
+        yield ListedParameter(one.name, kind, default=one.written_default, field=fields.get(one.name))

@@ -189,7 +189,8 @@ def _complete_argument(parameter: ListedParameter) -> Schema:
     """Return a parameter's description, type and limits, with its choices or its default as values."""
     unit = f" {parameter.unit}" if parameter.unit else ""
     facts = [f"type `{parameter.type}`"] if parameter.type else []
-    facts.append("required" if parameter.default is None else f"default `{parameter.default}`")
+    default = "required" if parameter.default is None else f"default `{parameter.default}`"
+    facts.append(f"the module's `{parameter.field}`" if parameter.field else default)
     facts += [f"at least `{parameter.minimum}{unit}`"] if parameter.minimum is not None else []
     facts += [f"at most `{parameter.maximum}{unit}`"] if parameter.maximum is not None else []
     text = "\n\n".join(filter(None, (parameter.description, "; ".join(facts))))

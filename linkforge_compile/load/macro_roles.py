@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from linkforge_compile.source.xml_tree import XmlElement
 
 
+ORIGIN = "origin"
+"""The block that an entry of `modules` gives as its `origin`."""
+
+
 class OwnPrefix(NamedTuple):
     """The parameter that a macro puts before its names; some add an underscore themselves."""
 
@@ -44,6 +48,16 @@ _FIRST = re.compile(r"\s*\$\{\s*(\w+)\s*\}(_)?")
 
 def parameters_with(kind: str, macro: Macro, roles: Iterable[Role]) -> Iterator[str]:
     return (role.parameter for role in roles if role.kind == kind and macro.parameter(role.parameter))
+
+
+def fields_of(macro: Macro, library: XacroLibrary) -> dict[str, str]:
+    """Return the parameters and blocks that a field of an entry of `modules` gives, and that field."""
+    roles = [*roles_of(macro, library)]
+    place = [next(parameters_with(kind, macro, roles), None) for kind in ("xyz", "rpy")]
+    fields = dict.fromkeys(filter(None, place), ORIGIN) if None not in place else {}
+    fields |= {block.name: ORIGIN for block in macro.blocks if block.name == ORIGIN and block.block == "*"}
+    named = {"parent": own_parent(macro, roles), "prefix": own_prefix(macro, roles)}
+    return fields | {own.name: field for field, own in named.items() if own}
 
 
 def own_parent(macro: Macro, roles: Sequence[Role]) -> OwnParent | None:

@@ -31,7 +31,15 @@ from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNO
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.load.macro_roles import OwnParent, OwnPrefix, own_parent, own_prefix, parameters_with, roles_of
+from linkforge_compile.load.macro_roles import (
+    ORIGIN,
+    OwnParent,
+    OwnPrefix,
+    own_parent,
+    own_prefix,
+    parameters_with,
+    roles_of,
+)
 from linkforge_compile.load.xacro import XacroArgument, XacroUse, open_xacro
 from linkforge_compile.load.xacro_library import Macro, MacroParameter, XacroLibrary, read_library
 from linkforge_compile.source import SourceFile
@@ -42,9 +50,6 @@ from linkforge_compile.syntax import YamlNode, YamlScalar
 if TYPE_CHECKING:
     from linkforge_compile.source import Span
     from linkforge_compile.source.xml_tree import XmlDocument
-
-ORIGIN = "origin"
-"""The block that an entry of `modules` gives as its `origin`."""
 
 STAND_IN = "world"
 """The parent of a macro that is used without one."""

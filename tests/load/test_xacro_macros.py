@@ -392,11 +392,20 @@ def test_params_lists_macros(folder: Path):
     blocks = done.stdout.split("\n\n")
     lidar = next(block for block in blocks if block.startswith("macro lidar")).splitlines()
     assert [line.split() for line in lidar[1:]] == [
-        ["prefix", "string", '""'],
-        ["parent", "string", "(required)"],
-        ["origin", "XML", "(required)"],
+        ["prefix", "string", "(the", "module's", "prefix)"],
+        ["parent", "string", "(the", "module's", "parent)"],
+        ["origin", "XML", "(the", "module's", "origin)"],
         ["radius", "string", "0.035"],
     ]
+    wheel = next(block for block in blocks if block.startswith("macro wheel")).splitlines()
+    assert [line.split()[2:] for line in wheel[1:]] == [
+        ["(required)"],
+        ["(the", "module's", "parent)"],
+        ["(required)"],
+        ["(required)"],
+    ]
+    camera = next(block for block in blocks if block.startswith("macro camera")).splitlines()
+    assert [line.split()[-1] for line in camera[1:]] == ["parent)", "origin)", "origin)"]
     assert any(block.startswith("macro disc") for block in blocks)
 
 

@@ -52,7 +52,7 @@ def _lines(listing: Listing) -> Iterator[str]:
         rows = [("parameter", "type", "default", "limits", "description"), *map(_row, listing.parameters)]
         yield from align(rows)
     else:
-        yield "It has no parameters."
+        yield "It has no parameters." if not listing.macros else "It has no arguments; 'macro' of a module calls one:"
     for macro, parameters in listing.macros.items():
         yield ""
         if parameters:
@@ -70,6 +70,7 @@ def _lines(listing: Listing) -> Iterator[str]:
 
 def _row(parameter: ListedParameter) -> tuple[str, ...]:
     default = "(required)" if parameter.default is None else parameter.default or '""'
+    default = f"(the module's {parameter.field})" if parameter.field else default
     if parameter.default is not None and parameter.computed not in {"", default}:
         default = f"{default} = {parameter.computed}"
     return parameter.name, parameter.type or "?", default, parameter.limits, " ".join(parameter.description.split())
@@ -83,7 +84,7 @@ def _json_text(listing: Listing) -> str:
         "description": listing.description,
         "parameters": [_json_parameter(parameter) for parameter in listing.parameters],
         "macros": [
-            {"name": name, "parameters": [_json_parameter(parameter) for parameter in parameters]}
+            {"name": name, "parameters": [{**_json_parameter(one), "field": one.field} for one in parameters]}
             for name, parameters in listing.macros.items()
         ],
         "variants": [{"name": name, "sets": dict(settings)} for name, settings in listing.variants.items()],

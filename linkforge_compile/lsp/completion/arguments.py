@@ -75,7 +75,8 @@ def offer_macros(context: Context) -> list[Offer]:
 
 def facts_of(one: ListedParameter) -> str:
     """Return the type, the default and the limits of a parameter in short."""
-    facts = (one.type or "", "required" if one.default is None else f"default {one.default}", one.limits)
+    default = "required" if one.default is None else f"default {one.default}"
+    facts = (one.type or "", f"the module's {one.field}" if one.field else default, one.limits)
     return ", ".join(filter(None, facts))
 
 
