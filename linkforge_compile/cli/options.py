@@ -156,16 +156,16 @@ def packages_of(arguments: argparse.Namespace) -> dict[str, str]:
     return parse_packages(arguments.packages, "--package")
 
 
-def parse_packages(pairs: Iterable[str], option: str) -> dict[str, str]:
-    """Return the values of an option as folders by name; UsageError if one is not NAME=PATH."""
+def parse_packages(pairs: Iterable[str], option: str, start: Path = Path()) -> dict[str, str]:
+    """Return the values of an option as folders by name, from `start`; UsageError if one is not NAME=PATH."""
     packages: dict[str, str] = {}
     for pair in pairs:
         name, separator, folder = pair.partition("=")
         if not (name and separator and folder):
             raise UsageError(f"{option} takes NAME=PATH, found '{pair}'")
-        if not Path(folder).is_dir():
-            raise UsageError(f"{option} {pair}: there is no folder '{folder}'")
-        packages[name] = folder
+        if not (start / folder).is_dir():
+            raise UsageError(f"{option} {pair}: there is no folder '{start / folder}'")
+        packages[name] = str(start / folder)
     return packages
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.diff_text import difference_lines
-from linkforge_compile.cli.options import Parser, packages_of, split_assignments
+from linkforge_compile.cli.options import Parser, packages_of, parse_packages, split_assignments
 from linkforge_compile.cli.reports import print_failure, print_status, progress_after, report
 from linkforge_compile.cli.specs import count
 from linkforge_compile.diagnostics import Diagnostic, Severity
@@ -93,10 +93,17 @@ def _import_again(spec: Path, written: argparse.Namespace, arguments: argparse.N
         folder / robot,
         srdf=folder / written.srdf if written.srdf else None,
         arguments=assignments,
-        packages={**{name: folder / place for name, place in packages_of(written).items()}, **packages_of(arguments)},
+        packages={**_packages_in(spec, written), **packages_of(arguments)},
         allow_outside=arguments.allow_outside,
         output=folder,
     )
+
+
+def _packages_in(spec: Path, written: argparse.Namespace) -> dict[str, str]:
+    try:
+        return parse_packages(written.packages, "--package", spec.parent)
+    except UsageError as error:
+        raise UsageError(f"the command at the top of '{spec}' has {error}; correct it") from error
 
 
 def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import CHANGE_OF_DELETED, DELETED_POSE
@@ -128,15 +128,32 @@ def without_links(tree: YamlMap, links: set[str]) -> YamlMap:
 
 
 def _joint_to_new_root(tree: YamlMap, deleted: set[str]) -> str:
-    """Return the fixed joint that alone joins deleted links to the others, if it leads down from the deleted ones.
+    """Return the fixed joint that alone leads down to the others from deleted links with nothing above them.
 
     Otherwise "", which is the name of none.
     """
-    ends = {joint: _ends_of(joint) for key in ("joints", "mount") for joint in tree.section(key).values()}
-    between = [joint for joint, (child, parent) in ends.items() if (child in deleted) != (parent in deleted)]
-    only = between[0] if len(between) == 1 else None
-    is_below = only is not None and ends[only][1] in deleted
-    return only.name if only and is_below and _text_of(only, "type") == "fixed" else ""
+    above = {child: parent or "" for key in ("joints", "mount") for child, parent in map(_ends_of, _joints(tree, key))}
+
+    known: dict[str | None, bool] = {None: True}
+
+    def is_below_root(link: str | None) -> bool:
+        path: list[str | None] = []
+        while link not in known:
+            known[link] = False  # of a link that is kept, and of those in a cycle
+            path.append(link)
+            link = above.get(link) if link in deleted else link
+        known.update(dict.fromkeys(path, known[link]))
+        return known[link]
+
+    below = [(joint, *_ends_of(joint)) for joint in _joints(tree, "joints")]
+    found = [
+        one for one, child, parent in below if child not in deleted and parent in deleted and is_below_root(parent)
+    ]
+    return found[0].name if len(found) == 1 and _text_of(found[0], "type") == "fixed" else ""
+
+
+def _joints(tree: YamlMap, section: str) -> Collection[YamlEntry]:
+    return tree.section(section).values()
 
 
 def _without_names(node: YamlNode, names: set[str]) -> YamlNode:

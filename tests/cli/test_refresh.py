@@ -109,6 +109,22 @@ def test_the_arguments_of_a_xacro_are_those_of_the_import(tmp_path: Path):
     assert "  b:" in text
 
 
+def test_packages_of_the_import_are_found_from_anywhere(tmp_path: Path):
+    (tmp_path / "arm_description").mkdir()
+    (tmp_path / "arm_description/package.xml").write_text("<package><name>arm_description</name></package>", "utf-8")
+    (tmp_path / "arm_description/arm.urdf").write_text(URDF, "utf-8")
+    (tmp_path / "specs").mkdir()
+    words = ("arm_description/arm.urdf", "--package", "arm_description=arm_description", "-o", "specs/arm.robot.yaml")
+    assert linkforge("import", *words, cwd=tmp_path).returncode == 0
+    assert refresh(tmp_path) == (0, "", ["specs/arm.robot.yaml is up to date"])
+    (tmp_path / "arm_description").rename(tmp_path / "moved")
+    code, _, (message,) = refresh(tmp_path)
+    assert code == 2
+    assert (
+        "the command at the top of 'specs/arm.robot.yaml' has --package arm_description=../arm_description" in message
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -109,6 +109,7 @@ def vendor_without(folder: Path, override: str, arm: str = VENDOR) -> Compilatio
     [
         ("{links: {world: null}}", ["j1", "j2"]),
         ("{links: {world: null}, joints: {fix: null}}", ["j1", "j2"]),
+        ("{links: {world: null, link2: null}}", ["j1"]),
         ("{links: {world: null, base: null}, semantic: {virtual_joints: null}}", ["j2"]),
     ],
 )
@@ -127,6 +128,11 @@ def test_what_is_above_a_fixed_joint_is_deleted_with_it(tmp_path: Path, override
             "{links: {world: null}}",
             "j3: {type: fixed, parent: world, child: link3}",
             "'world' is deleted by this override, and joints 'fix' and 'j3' below it are not; ",
+        ),
+        (
+            "{links: {world: null, link1: null}}",
+            "",
+            "'link1' is deleted by this override, and joint 'j2' below it is not; ",
         ),
     ],
 )
