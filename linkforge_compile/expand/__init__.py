@@ -22,6 +22,7 @@ What each module knows; it imports only those above it:
     deletions         a tree and an override -> what else goes with deleted links; why each name is gone
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
     macro_module      an entry of `modules` with `macro` -> what the macro makes, with a `mount`
+    data_tags         a number of a data file with a tag of xacro -> in SI units
     file_scope        one use of a file -> the names, values and functions that its expressions know
     expand_uses       all of this for a file, then for each file that it uses
 """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import re
 from collections.abc import Mapping
@@ -19,9 +18,9 @@ from linkforge_compile.diagnostics.codes.modules import (
     NOT_CHECKED,
     PACKAGE_NOWHERE,
     RESERVED_NAME,
-    TAG_NOT_NUMBER,
 )
 from linkforge_compile.expand.arguments import Unset, Variants
+from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.instance import NameReference
@@ -39,9 +38,7 @@ from linkforge_compile.expressions import (
     Scope,
     Value,
     as_text,
-    evaluate,
     kind_name,
-    parse_template,
 )
 from linkforge_compile.load.loader import Loader, SpecFile
 from linkforge_compile.load.locations import PathSite, Writers, from_base, locate, mesh_base, rebased
@@ -50,9 +47,8 @@ from linkforge_compile.schema.shapes import shapes
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.source.span import ModuleUse
-from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
-from linkforge_compile.units import number_text
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -246,7 +242,7 @@ class FileScope:
             return FAULT
         site = self.site(text, self.evaluator.place(entry.value))
         target = locate(site, self._loader, self._sink)
-        tags = {tag: partial(_angle, self._sink, tag) for tag in _ANGLE_TAGS}
+        tags = {tag: partial(number_with_tag, self._sink, tag) for tag in UNIT_TAGS}
         node = self._loader.open_data(target.path, self._sink, tags, site.used) if target else None
         if node is None:
             return FAULT
@@ -299,24 +295,6 @@ class FileScope:
 
     def _is_faulty(self, *sections: str) -> bool:
         return any(isinstance(self._use.spec.tree.get(section), YamlFault) for section in sections)
-
-
-_ANGLE_TAGS = {"!degrees": math.radians, "!radians": float}
-"""xacro's YAML tags for angles, which data files may use."""
-
-
-def _angle(sink: Diagnostics, tag: str, scalar: YamlScalar) -> YamlNode:
-    """Return the angle with a tag as a bare number of radians; it is a number or an expression such as `pi/2`.
-
-    It has no unit, as in xacro, because vendors also write `max_velocity: !degrees 180`.
-    """
-    template = parse_template(f"$({scalar.text})", scalar.span, Diagnostics())
-    value = FAULT if template is None else evaluate(template, Scope({}), Diagnostics())
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        sink.report(TAG_NOT_NUMBER.at(scalar.span, tag=tag, text=scalar.text))
-        return YamlFault(scalar.span)
-    radians = _ANGLE_TAGS[tag](float(value))
-    return YamlScalar(number_text(radians), radians, scalar.span)
 
 
 class _FaultyScope(Scope):

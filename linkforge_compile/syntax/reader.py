@@ -20,6 +20,7 @@ from yaml.events import (
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics
 from linkforge_compile.diagnostics.codes import syntax as codes
+from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import FORBIDDEN_CHARACTER, code_point
@@ -223,7 +224,7 @@ class _Reader:
         if self._tags is None:
             self._sink.report(codes.TAG.at(span, tag=span.text))
         else:
-            self._sink.report(codes.OTHER_TAG.at(span, tag=span.text, known=" and ".join(self._tags)))
+            self._sink.report(codes.OTHER_TAG.at(span, tag=span.text, known=alternatives([*self._tags], "and")))
         return None
 
     def _descend(self, depth: int, event: events.Event) -> None:

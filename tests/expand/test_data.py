@@ -29,19 +29,23 @@ def test_a_table_is_reached_into(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "angle"),
+    ("text", "number"),
     [
         ("!degrees 90", math.pi / 2),
         ("!degrees -45.0", -math.pi / 4),
         ("!degrees  '180'", math.pi),
         ("!radians pi/2", math.pi / 2),
         ("!radians 1.5", 1.5),
+        ("!meters 2", 2.0),
+        ("!millimeters 2.5*3", 2.5 * 3 * 0.001),
+        ("!foot 3", 3 * 0.3048),
+        ("!inches 3", 3 * 0.0254),
     ],
 )
-def test_the_tags_of_xacro_make_bare_radians(tmp_path, text, angle):
+def test_the_tags_of_xacro_make_bare_numbers(tmp_path, text, number):
     (tmp_path / "table.yaml").write_text(f"[{text}]" if "/" not in text else f"- {text}")
     found = assemble("data: {table: table.yaml}\nmetadata: {a: '$(table[0])'}\n", folder=tmp_path)
-    assert (found.messages, found.metadata) == ([], {"a": angle})
+    assert (found.messages, found.metadata) == ([], {"a": number})
 
 
 @pytest.mark.parametrize("text", ["ninety", "90 deg", "prefix", "true", "'a' + 'b'", "1/0", "link('x')", ""])
