@@ -16,10 +16,14 @@ ORIGIN = "origin"
 
 
 class OwnPrefix(NamedTuple):
-    """The parameter that a macro puts before its names; some add an underscore themselves."""
+    """The parameter that a macro puts before its names; some add an underscore themselves.
+
+    `is_name` of a parameter `name` with which all names begin, so that it is the name of the module.
+    """
 
     name: str
     adds_underscore: bool
+    is_name: bool = False
 
 
 class OwnParent(NamedTuple):
@@ -40,6 +44,7 @@ class Role(NamedTuple):
     suffix: str = ""
 
 
+_NAME = "name"
 _PARENTS = ("parent", "parent_link")
 _ONLY = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
 _WITH_END = re.compile(r"\s*\$\{\s*(\w+)\s*\}([\w.-]*)\s*")
@@ -56,7 +61,7 @@ def fields_of(macro: Macro, library: XacroLibrary) -> dict[str, str]:
     place = [next(parameters_with(kind, macro, roles), None) for kind in ("xyz", "rpy")]
     fields = dict.fromkeys(filter(None, place), ORIGIN) if None not in place else {}
     fields |= {block.name: ORIGIN for block in macro.blocks if block.name == ORIGIN and block.block == "*"}
-    named = {"parent": own_parent(macro, roles), "prefix": own_prefix(macro, roles)}
+    named = {"parent": own_parent(macro, roles), "prefix": own_prefix(macro, library, roles)}
     return fields | {own.name: field for field, own in named.items() if own}
 
 
@@ -73,12 +78,33 @@ def own_parent(macro: Macro, roles: Sequence[Role]) -> OwnParent | None:
     return next((OwnParent(one.name, "") for one in macro.parameters if one.is_required and one.name in _PARENTS), None)
 
 
-def own_prefix(macro: Macro, roles: Iterable[Role]) -> OwnPrefix | None:
+def own_prefix(macro: Macro, library: XacroLibrary, roles: Iterable[Role]) -> OwnPrefix | None:
     named = [role for role in roles if "prefix" in role.kind and "prefix" in role.parameter]
     name = next((role.parameter for role in named if macro.parameter(role.parameter)), None)
     if name is None:
-        return None
+        return OwnPrefix(_NAME, True, True) if {*_starts(macro, library)} == {_NAME} else None
     return OwnPrefix(name, all(role.kind == "prefix_" for role in named if role.parameter == name))
+
+
+def _starts(macro: Macro, library: XacroLibrary, callers: frozenset[str] = frozenset()) -> Iterator[str | None]:
+    """Yield for each name of a link or joint the parameter with which it begins, None for none of the macro's."""
+    for element in macro.element.walk():
+        called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None
+        if called and called.name not in callers:
+            for start in {*_starts(called, library, callers | {macro.name})}:
+                yield _parameter_outside(start, called, element)
+        elif element.tag in ("link", "joint"):
+            found = _FIRST.match(element.get("name") or "")
+            yield found[1] if found and macro.parameter(found[1]) else None
+
+
+def _parameter_outside(name: str | None, called: Macro, call: XmlElement) -> str | None:
+    """Return the parameter with which the value of a parameter of a called macro begins around the call."""
+    parameter = called.parameter(name) if name else None
+    if parameter is None or (given := call.get(parameter.name)) is None:
+        return name if parameter and parameter.is_forwarded else None
+    found = _FIRST.match(given)
+    return found[1] if found else None
 
 
 def roles_of(macro: Macro, library: XacroLibrary, callers: frozenset[str] = frozenset()) -> Iterator[Role]:

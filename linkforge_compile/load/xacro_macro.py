@@ -159,7 +159,7 @@ class _Arguments:
             elif not parameter:
                 self._give_to_file(name, argument)
         roles = [*roles_of(self.macro, self.library)]
-        self._set_prefix(own_prefix(self.macro, roles))
+        self._set_prefix(own_prefix(self.macro, self.library, roles))
         self._set_parent(own_parent(self.macro, roles))
         self._set_place([next(parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
 
@@ -173,12 +173,12 @@ class _Arguments:
 
     def _set_prefix(self, own: OwnPrefix | None) -> None:
         entry = self.entry
-        if own is None:
+        if own is None or (own.is_name and entry.has_prefix and own.name in self.values):
             self.prefix = entry.prefix
         elif own.name in self.values:
             if entry.has_prefix:
                 self._refuse(own.name, "prefix")
-        else:
+        elif entry.prefix or not own.is_name:
             text = entry.prefix.removesuffix("_") if own.adds_underscore else entry.prefix
             self.values[own.name] = XacroArgument(text, entry.macro.span)
 

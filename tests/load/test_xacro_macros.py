@@ -269,8 +269,32 @@ def test_a_macro_may_compose_the_name_of_the_link_above(entry: str, folder: Path
     spec = folder / "cell.robot.yaml"
     lines = f"modules: {{b: {{use: parts.xacro, macro: sonar, {entry}}}}}\n"
     spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{rail_link: }}\n{lines}", "utf-8")
-    joint = next(one for one in compile_file(spec).result().joints if one.name == "b_front_joint")
-    assert (joint.parent, joint.child, joint.origin.xyz.z) == ("rail_link", "b_front_link", 0.1)
+    joint = next(one for one in compile_file(spec).result().joints if one.name == "front_joint")
+    assert (joint.parent, joint.child, joint.origin.xyz.z) == ("rail_link", "front_link", 0.1)
+
+
+@pytest.mark.parametrize(
+    ("entry", "links"),
+    [
+        ("", ["front_link", "front_cone", "front_post"]),
+        ("with: {name: rear}", ["rear_link", "rear_cone", "rear_post"]),
+        ("prefix: a_", ["a_link", "a_cone", "a_post"]),
+        ("prefix: a_, with: {name: rear}", ["a_rear_link", "a_rear_cone", "a_rear_post"]),
+        ("prefix: '', with: {name: rear}", ["rear_link", "rear_cone", "rear_post"]),
+    ],
+)
+def test_a_name_with_which_all_names_begin_is_that_of_the_module(entry: str, links: list[str], folder: Path):
+    parts = (folder / "parts.xacro").read_text("utf-8")
+    post = """<xacro:macro name="station" params="name:=x parent">
+      <xacro:sonar name="${name}" parent="${parent}"/>
+      <link name="${name}_post"/>
+      <joint name="${name}_post_joint" type="fixed"><parent link="${name}_link"/><child link="${name}_post"/></joint>
+    </xacro:macro></robot>"""
+    (folder / "parts.xacro").write_text(parts.replace("</robot>", post), "utf-8")
+    spec = folder / "cell.robot.yaml"
+    module = f"front: {{{', '.join(filter(None, ('use: parts.xacro, macro: station, parent: rail_link', entry)))}}}"
+    spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{rail_link: }}\nmodules: {{{module}}}\n", "utf-8")
+    assert sorted(link.name for link in compile_file(spec).result().links) == sorted(["rail_link", *links])
 
 
 def test_an_override_has_the_names_of_the_robot(cell: Cell):
@@ -283,10 +307,10 @@ FAULTS = {
     "no such macro": ("a: {macro: lidr, parent: deck}", "LF8063", 5, "named 'lidr' here; did you mean 'lidar'?"),
     "no such parameter": ("a: {macro: lidar, parent: deck, with: {radus: 1}}", "LF3020", 5, "did you mean 'radius'?"),
     "a parameter is missing": (
-        "a: {macro: wheel, parent: deck, with: {xyz: 0 0 0, shape: <box/>}}",
+        "a: {macro: sonar, parent: deck_link, prefix: ''}",
         "LF3021",
         5,
-        "parameter 'name' of macro 'wheel' has no default and must be set; write 'with: {name: VALUE}'",
+        "parameter 'name' of macro 'sonar' has no default and must be set; write 'with: {name: VALUE}'",
     ),
     "a block is missing": (
         "a: {macro: wheel, parent: deck, with: {xyz: 0 0 0, name: a}}",
@@ -399,7 +423,7 @@ def test_params_lists_macros(folder: Path):
     ]
     wheel = next(block for block in blocks if block.startswith("macro wheel")).splitlines()
     assert [line.split()[2:] for line in wheel[1:]] == [
-        ["(required)"],
+        ["(the", "module's", "prefix)"],
         ["(the", "module's", "parent)"],
         ["(required)"],
         ["(required)"],
