@@ -17,7 +17,7 @@ from linkforge_compile import __version__
 from linkforge_compile.diagnostics.codes import REGISTER
 
 NAVIGATION = {
-    "Start": ["docs/install", "examples/README"],
+    "Start": ["docs/install", "docs/tutorial", "examples/README"],
     "How-to": [
         "docs/builds",
         "docs/after-urdf",
