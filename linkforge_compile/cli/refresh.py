@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -101,9 +102,17 @@ def _import_again(spec: Path, written: argparse.Namespace, arguments: argparse.N
 
 def _packages_in(spec: Path, written: argparse.Namespace) -> dict[str, str]:
     try:
-        return parse_packages(written.packages, "--package", spec.parent)
+        packages = parse_packages(written.packages, "--package", spec.parent)
     except UsageError as error:
         raise UsageError(f"the command at the top of '{spec}' has {error}; correct it") from error
+    return {name: _without_detour(folder) for name, folder in packages.items()}
+
+
+def _without_detour(folder: str) -> str:
+    """Return a folder as the import had it: paths in the spec, `$(find …)`, are absolute ones below it."""
+    plain = os.path.normpath(folder)
+    # After a link, `..` may lead elsewhere.
+    return plain if os.path.realpath(plain) == os.path.realpath(folder) else folder
 
 
 def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) -> None:

@@ -109,6 +109,20 @@ def test_the_arguments_of_a_xacro_are_those_of_the_import(tmp_path: Path):
     assert "  b:" in text
 
 
+def test_paths_in_a_package_are_the_same_after_a_refresh(tmp_path: Path):
+    pytest.importorskip("xacro")
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "specs").mkdir()
+    (tmp_path / "arm.urdf.xacro").write_text(
+        """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arm"><link name="a"><visual><geometry>
+        <mesh filename="file://$(find part_files)/a.stl"/></geometry></visual></link></robot>""",
+        "utf-8",
+    )
+    words = ("arm.urdf.xacro", "--package", "part_files=parts", "-o", "specs/arm.robot.yaml")
+    assert linkforge("import", *words, cwd=tmp_path).returncode == 0
+    assert refresh(tmp_path)[2][-1] == "specs/arm.robot.yaml is up to date"
+
+
 def test_packages_of_the_import_are_found_from_anywhere(tmp_path: Path):
     (tmp_path / "arm_description").mkdir()
     (tmp_path / "arm_description/package.xml").write_text("<package><name>arm_description</name></package>", "utf-8")
