@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import sys
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -165,15 +166,23 @@ def _shown(item: object) -> str:
         return "…"
 
 
-def xacro_arguments(arguments: Arguments, sink: Diagnostics) -> dict[str, XacroArgument] | None:
-    """Return arguments as text, the only type that xacro has; None after a reported error."""
+def xacro_arguments(
+    arguments: Arguments, sink: Diagnostics, *, takes_maps: bool = False
+) -> dict[str, XacroArgument] | None:
+    """Return arguments as text, the only type that xacro has; None after a reported error.
+
+    `takes_maps` for a macro, to which a map goes as an expression.
+    """
     from linkforge_compile.load.xacro import XacroArgument
 
     texts: dict[str, XacroArgument] = {}
     for name, entry in arguments.entries.items():
         text = _xacro_text(entry.value, arguments)
+        expression = _xacro_expression(entry.value, arguments) if text is None and takes_maps else None
         if isinstance(text, str):
             texts[name] = XacroArgument(text, entry.key.span)
+        elif expression:
+            texts[name] = XacroArgument(expression, entry.key.span, is_expression=True)
         elif text is None:
             sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
     return None if arguments.is_partial or len(texts) < len(arguments.entries) else texts
@@ -192,6 +201,33 @@ def _xacro_text(node: YamlNode, arguments: Arguments) -> str | Fault | None:
         texts = [_text_of(item) for item in value]
         return " ".join(text for text in texts if text) if None not in texts else None
     return value if isinstance(value, Fault) else _text_of(value)
+
+
+def _xacro_expression(node: YamlNode, arguments: Arguments) -> str | None:
+    """Return the expression of xacro for a map, or a list of them; None for anything else."""
+    from linkforge_compile.expand.values import plain_value  # with the expressions
+
+    value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
+    literal = _python_literal(value) if isinstance(value, Mapping | tuple) else None
+    return literal and f"${{{f'xacro.dotify({literal})' if isinstance(value, Mapping) else literal}}}"
+
+
+def _python_literal(value: Value | Fault) -> str | None:
+    """Return a value as Python without braces, which would end an expression of xacro; None for a fault."""
+    if isinstance(value, Mapping):
+        items = [(_python_literal(key), _python_literal(item)) for key, item in value.items()]
+        return (
+            f"dict([{', '.join(f'({key}, {item})' for key, item in items)}])"
+            if all(all(one) for one in items)
+            else None
+        )
+    if isinstance(value, tuple):
+        literals = [_python_literal(item) for item in value]
+        return f"[{', '.join(filter(None, literals))}]" if all(literals) else None
+    if isinstance(value, str):
+        return re.sub(r"[{}$]", lambda found: f"\\x{ord(found[0]):02x}", repr(value))
+    number = value.value if isinstance(value, Quantity) else value
+    return repr(number) if number is None or isinstance(number, bool | int | float) else None
 
 
 def _text_of(value: Value) -> str | None:

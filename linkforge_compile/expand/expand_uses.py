@@ -142,7 +142,8 @@ class _Expander:
                 sink.report(MACRO_OF_NO_XACRO.at(macro.span, path=site.text))
                 return None, entry
             return open_use(site, loader, sink), replace(entry, arguments=entry.arguments.without(used or ()))
-        use, texts = _xacro_use(site, loader, sink), xacro_arguments(entry.arguments, sink)
+        use = _xacro_use(site, loader, sink)
+        texts = xacro_arguments(entry.arguments, sink, takes_maps=macro is not None)
         entry = replace(entry, arguments=Arguments())
         if use is None:
             return None, entry

@@ -176,10 +176,11 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 
 
 class XacroArgument(NamedTuple):
-    """The text of an argument, the only type that xacro has, and where its name is written."""
+    """The text of an argument, and where its name is written; of a macro it may be an expression, for a map."""
 
     text: str
     where: Span
+    is_expression: bool = False
 
 
 @dataclass(frozen=True)

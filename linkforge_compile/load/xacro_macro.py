@@ -25,6 +25,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     MACRO_BLOCK,
     MACRO_SETS_FIELD,
     MACRO_WITHOUT_LINKS,
+    XACRO_ARGUMENT,
     XACRO_UNKNOWN_NAME,
 )
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
@@ -104,7 +105,11 @@ def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnosti
     arguments.require_all()
     if arguments.is_faulty:
         return None
-    call = MacroCall(macro.name, {name: one.text for name, one in arguments.values.items()}, blocks)
+    values, maps = (
+        {name: one.text for name, one in arguments.values.items() if one.is_expression is is_map}
+        for is_map in (False, True)
+    )
+    call = MacroCall(macro.name, values, blocks, maps)
     scan = _Scan()
     site = ImportSite(use.used.text, entry.macro.span)
     use = replace(use, used=site, arguments=arguments.of_file, used_elsewhere=None, call=call)
@@ -167,6 +172,8 @@ class _Arguments:
         known = (*(one.name for one in self.macro.parameters), *self.library.arguments, *self.library.used)
         if name in known:
             self.of_file[name] = argument
+            if argument.is_expression:
+                self._report(XACRO_ARGUMENT.at(argument.where, name=name))
             return
         declared = Note(f"macro '{self.macro.name}' is declared here", self.macro.element.span)
         self._report(UNKNOWN_PARAMETER.at(argument.where, name=name, near=known, notes=[declared]))
@@ -224,7 +231,8 @@ class _Arguments:
         elements = _elements_in(given.text)
         if elements is None or (parameter.block == "*" and elements != 1):
             what = "one element" if parameter.block == "*" else "elements"
-            self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=given.text))
+            found = "a map" if given.is_expression else given.text
+            self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=found))
             return None
         return given.text if parameter.block == "*" else f"<block>{given.text}</block>"
 

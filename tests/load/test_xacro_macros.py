@@ -1,5 +1,6 @@
 """Macros of xacro files as modules: `use: FILE.xacro, macro: NAME`."""
 
+import json
 import subprocess
 import sys
 from collections.abc import Callable
@@ -403,6 +404,48 @@ def test_what_the_user_writes_is_no_expression():
         "values": {"name": "$${1+1}$$(arg x)$$${y}", "xyz": "$5"},
         "blocks": ['<box size="$${z}"/>'],
     }
+
+
+MAPPED = f"""{ROOT}>
+<xacro:macro name="arm" params="sizes **more">
+  <link name="${{sizes.name}}">
+    <visual><geometry><sphere radius="${{sizes['ball']['radius'] + sizes.rows[1].add}}"/></geometry></visual>
+    <xacro:insert_block name="more"/>
+  </link>
+  <gazebo><note>${{sizes.get('note', '')}}</note></gazebo>
+</xacro:macro>
+<xacro:arg name="color" default="red"/>
+</robot>
+"""
+
+
+def of_map(folder: Path, given: str, note: str = "") -> Compilation:
+    (folder / "mapped.xacro").write_text(MAPPED, "utf-8")
+    sizes = {"name": "base", "ball": {"radius": "10 cm"}, "rows": [{"add": 1}, {"add": 0.5}], "note": note}
+    (folder / "sizes.yaml").write_text(json.dumps(sizes), "utf-8")
+    spec = folder / "cell.robot.yaml"
+    entry = f"use: mapped.xacro, macro: arm, prefix: '', with: {{more: <a/>, {given}}}"
+    spec.write_text(f"linkforge: 1\nname: cell\ndata: {{d: sizes.yaml}}\nmodules: {{a: {{{entry}}}}}\n", "utf-8")
+    return compile_file(spec)
+
+
+@pytest.mark.parametrize(
+    "given", ["sizes: $(d)", "sizes: {name: base, ball: {radius: 10 cm}, rows: [{add: 1}, {add: 0.5}]}"]
+)
+def test_a_parameter_may_be_a_map_as_from_load_yaml(given: str, folder: Path):
+    (link,) = of_map(folder, given).result().links
+    assert link.name == "base"
+    assert '<sphere radius="0.6"' in of_map(folder, given).result().export_urdf()
+
+
+@pytest.mark.parametrize("text", ["${1 + 1} $(arg color)", "}", "a'b\\", "é\\n$$"])
+def test_texts_in_a_map_are_no_expressions(text: str, folder: Path):
+    robot = of_map(folder, "sizes: $(d)", note=text).result()
+    assert f"<note>{text}</note>" in robot.export_urdf()
+
+
+def test_an_argument_of_the_file_is_no_map(folder: Path):
+    assert codes(of_map(folder, "sizes: $(d), color: {a: 1}")) == [("LF8033", 4)]
 
 
 def test_macros_are_not_expanded_where_that_is_forbidden(cell: Cell, monkeypatch: pytest.MonkeyPatch):

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
+from types import MappingProxyType
 from typing import IO, NamedTuple, TypedDict
 
 from linkforge_compile.importers.xacro.answers import XacroAnswers
@@ -87,16 +88,20 @@ class _Answer(TypedDict, total=False):
 
 
 class MacroCall(NamedTuple):
-    """A call of a macro of a file: the values of its parameters, and the XML of its blocks in the order declared."""
+    """A call of a macro of a file: the values of its parameters, and the XML of its blocks in the order declared.
+
+    `expressions` are further values, which xacro evaluates; they are ours.
+    """
 
     macro: str
     values: Mapping[str, str]
     blocks: tuple[str, ...]
+    expressions: Mapping[str, str] = MappingProxyType({})
 
     @property
     def request(self) -> dict[str, object]:
         # What the user wrote is data, in which xacro evaluates nothing.
-        values = {name: _escaped(value) for name, value in self.values.items()}
+        values = {name: _escaped(value) for name, value in self.values.items()} | dict(self.expressions)
         return {"macro": self.macro, "values": values, "blocks": list(map(_escaped, self.blocks))}
 
 
