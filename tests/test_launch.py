@@ -356,7 +356,8 @@ def test_a_spec_that_cannot_be_read_stops_the_launch_file(ros: Ros, tmp_path: Pa
         ros.ours.RobotDescription(tmp_path / "hand.robot.yaml")
 
 
-IN_PROCESS, BY_COMMAND = re.findall(r"```python\n(.*?)```", (ROOT / "docs/builds.md").read_text("utf-8"), re.DOTALL)
+PAGE = (ROOT / "docs/how-to/launch.md").read_text("utf-8")
+IN_PROCESS, _, BY_COMMAND = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 WARNED = SPEC.replace("sphere: 0.1", "capsule: {radius: 0.1, length: 1}")
 
 

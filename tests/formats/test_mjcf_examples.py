@@ -40,7 +40,7 @@ def test_the_quadruped_stands_on_the_ground():
 
 
 def test_the_scene_of_the_docs_attaches_a_robot_with_its_keyframes(tmp_path: Path):
-    page = (ROOT / "docs" / "after-urdf.md").read_text()
+    page = (ROOT / "docs" / "how-to" / "mujoco.md").read_text()
     scene = next(one for one in page.split("```xml\n") if "<attach" in one).partition("```")[0]
     golden = (QUADRUPED / "quadruped_mujoco.mjcf").read_text()
     (tmp_path / "arm.mjcf").write_text(golden.replace('"trunk"', '"base"'))
