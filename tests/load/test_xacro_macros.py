@@ -444,6 +444,21 @@ def test_texts_in_a_map_are_no_expressions(text: str, folder: Path):
     assert f"<note>{text}</note>" in robot.export_urdf()
 
 
+def test_a_material_of_a_file_that_is_included_twice_comes_once(folder: Path):
+    (folder / "colors.xacro").write_text(f'{ROOT}><material name="steel"><color rgba="1 0 0 1"/></material></robot>')
+    twice = '<xacro:include filename="colors.xacro"/>' * 2
+    (folder / "all.xacro").write_text(
+        f"""{ROOT}>{twice}<xacro:macro name="ball" params="name"><link name="${{name}}">
+        <visual><geometry><sphere radius="1"/></geometry><material name="steel"/></visual></link>
+        </xacro:macro></robot>"""
+    )
+    spec = folder / "cell.robot.yaml"
+    spec.write_text("linkforge: 1\nname: cell\nmodules: {a: {use: all.xacro, macro: ball}}\n", "utf-8")
+    made = compile_file(spec)
+    assert codes(made) == []
+    assert [*made.result().materials] == ["steel"]
+
+
 def test_an_argument_of_the_file_is_no_map(folder: Path):
     assert codes(of_map(folder, "sizes: $(d), color: {a: 1}")) == [("LF8033", 4)]
 

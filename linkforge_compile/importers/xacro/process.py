@@ -186,7 +186,10 @@ class _Run:
         if aside:
             root.removeChild(aside)
             used = {one.getAttribute("name") for one in root.getElementsByTagName("material")}
-            for material in [one for one in aside.childNodes if isinstance(one, Element) and one.tagName == "material"]:
+            # Of a file that is included twice, one is enough.
+            elements = [one for one in aside.childNodes if isinstance(one, Element)]
+            materials = {_without_marks(one): one for one in elements if one.tagName == "material"}
+            for material in materials.values():
                 if material.getAttribute("name") in used:
                     root.insertBefore(material, root.firstChild)
         return root
@@ -272,6 +275,10 @@ def _fault(error: BaseException) -> _Answer:
     words = "it takes too much memory" if isinstance(cause, MemoryError) else str(cause) or repr(cause)
     missing = cause.filename if isinstance(cause, FileNotFoundError) else None
     return {"error": words, "kind": type(cause).__name__, "missing_file": missing, "expressions": expressions}
+
+
+def _without_marks(element: Element) -> str:
+    return re.sub(rf' {MARK}="[0-9:]*"', "", element.toxml())
 
 
 def _comments(document: Document) -> Iterator[Comment]:
