@@ -16,8 +16,8 @@ from linkforge_compile.expand.parameters import Declaration, resolve_type
 from linkforge_compile.expressions import FAULT, Value
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.load.locations import SPEC_ENDINGS, PathSite, locate, names_xacro, open_use
-from linkforge_compile.load.macro_roles import fields_of
-from linkforge_compile.load.xacro_library import Macro, XacroLibrary, read_library
+from linkforge_compile.load.macro_roles import MacroRoles
+from linkforge_compile.load.xacro_library import Macro, read_library
 from linkforge_compile.syntax import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, Quantity
 
@@ -215,16 +215,16 @@ def list_arguments(path: Path, loader: Loader, sink: Diagnostics, used: ImportSi
         for name, default in library.arguments.items()
     ]
     undeclared = [ListedParameter(name, "string") for name in library.used if name not in library.arguments]
-    name = library.name
+    name, roles = library.name, MacroRoles(library)
     return Listing(
         name if name and "$" not in name else path.name,
         parameters=(*declared, *undeclared),
-        macros={one.name: tuple(_listed_of_macro(one, library)) for one in library.macros.values()},
+        macros={one.name: tuple(_listed_of_macro(one, roles)) for one in library.macros.values()},
     )
 
 
-def _listed_of_macro(macro: Macro, library: XacroLibrary) -> Iterator[ListedParameter]:
-    fields = fields_of(macro, library)
+def _listed_of_macro(macro: Macro, roles: MacroRoles) -> Iterator[ListedParameter]:
+    fields = roles.fields(macro)
     for one in macro.parameters:
         kind = "string" if one.block is None else "XML"
         yield ListedParameter(one.name, kind, default=one.written_default, field=fields.get(one.name))

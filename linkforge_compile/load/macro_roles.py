@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
+from itertools import islice
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -45,57 +46,96 @@ class Role(NamedTuple):
 
 
 _NAME = "name"
+_MAX_DEPTH = 30
+_MOST_ROLES = 1000
 _PARENTS = ("parent", "parent_link")
 _ONLY = re.compile(r"\s*\$\{\s*(\w+)\s*\}\s*")
 _WITH_END = re.compile(r"\s*\$\{\s*(\w+)\s*\}([\w.-]*)\s*")
 _FIRST = re.compile(r"\s*\$\{\s*(\w+)\s*\}(_)?")
 
 
-def parameters_with(kind: str, macro: Macro, roles: Iterable[Role]) -> Iterator[str]:
-    return (role.parameter for role in roles if role.kind == kind and macro.parameter(role.parameter))
+class MacroRoles:
+    """What the parameters of the macros of a library are for, also in the macros that they call."""
 
+    def __init__(self, library: XacroLibrary) -> None:
+        self._library = library
+        self._roles: dict[str, tuple[Role, ...]] = {}
+        self._starts: dict[str, tuple[str | None, ...]] = {}
 
-def fields_of(macro: Macro, library: XacroLibrary) -> dict[str, str]:
-    """Return the parameters and blocks that a field of an entry of `modules` gives, and that field."""
-    roles = [*roles_of(macro, library)]
-    place = [next(parameters_with(kind, macro, roles), None) for kind in ("xyz", "rpy")]
-    fields = dict.fromkeys(filter(None, place), ORIGIN) if None not in place else {}
-    fields |= {block.name: ORIGIN for block in macro.blocks if block.name == ORIGIN and block.block == "*"}
-    named = {"parent": own_parent(macro, roles), "prefix": own_prefix(macro, library, roles)}
-    return fields | {own.name: field for field, own in named.items() if own}
+    def fields(self, macro: Macro) -> dict[str, str]:
+        """Return the parameters and blocks that a field of an entry of `modules` gives, and that field."""
+        place = self.place(macro)
+        fields = dict.fromkeys(filter(None, place), ORIGIN) if None not in place else {}
+        fields |= {block.name: ORIGIN for block in macro.blocks if block.name == ORIGIN and block.block == "*"}
+        named = {"parent": self.parent(macro), "prefix": self.prefix(macro)}
+        return fields | {own.name: field for field, own in named.items() if own}
 
+    def place(self, macro: Macro) -> tuple[str | None, str | None]:
+        """Return the parameters for the `xyz` and the `rpy` of the joint to the link above, None for none."""
+        by_kind = {one.kind: one.parameter for one in reversed(self._of(macro)) if macro.parameter(one.parameter)}
+        return by_kind.get("xyz"), by_kind.get("rpy")
 
-def own_parent(macro: Macro, roles: Sequence[Role]) -> OwnParent | None:
-    links = {(role.parameter, role.suffix) for role in roles if role.kind == "link"}
-    parents = [
-        OwnParent(role.parameter, role.suffix)
-        for role in roles
-        if role.kind == "parent" and macro.parameter(role.parameter) and (role.parameter, role.suffix) not in links
-    ]
-    if parents:
-        return min(parents, key=lambda one: bool(one.suffix))
-    # What becomes of it is not known before xacro runs: it is in a property, or goes to a macro of another file.
-    return next((OwnParent(one.name, "") for one in macro.parameters if one.is_required and one.name in _PARENTS), None)
+    def parent(self, macro: Macro) -> OwnParent | None:
+        """Return the parameter for the link above."""
+        roles = self._of(macro)
+        links = {(role.parameter, role.suffix) for role in roles if role.kind == "link"}
+        parents = [
+            OwnParent(role.parameter, role.suffix)
+            for role in roles
+            if role.kind == "parent" and macro.parameter(role.parameter) and (role.parameter, role.suffix) not in links
+        ]
+        if parents:
+            return min(parents, key=lambda one: bool(one.suffix))
+        # What becomes of it is not known before xacro runs: it is in a property, or goes to a macro of another file.
+        named = (OwnParent(one.name, "") for one in macro.parameters if one.is_required and one.name in _PARENTS)
+        return next(named, None)
 
+    def prefix(self, macro: Macro) -> OwnPrefix | None:
+        """Return the parameter with which the names begin."""
+        named = [role for role in self._of(macro) if "prefix" in role.kind and "prefix" in role.parameter]
+        name = next((role.parameter for role in named if macro.parameter(role.parameter)), None)
+        if name is None:
+            return OwnPrefix(_NAME, True, True) if self._starts_of(macro) == (_NAME,) else None
+        return OwnPrefix(name, all(role.kind == "prefix_" for role in named if role.parameter == name))
 
-def own_prefix(macro: Macro, library: XacroLibrary, roles: Iterable[Role]) -> OwnPrefix | None:
-    named = [role for role in roles if "prefix" in role.kind and "prefix" in role.parameter]
-    name = next((role.parameter for role in named if macro.parameter(role.parameter)), None)
-    if name is None:
-        return OwnPrefix(_NAME, True, True) if {*_starts(macro, library)} == {_NAME} else None
-    return OwnPrefix(name, all(role.kind == "prefix_" for role in named if role.parameter == name))
+    def _of(self, macro: Macro, depth: int = 0) -> tuple[Role, ...]:
+        if macro.name not in self._roles:
+            self._roles[macro.name] = ()  # while it calls itself
+            found = dict.fromkeys(self._roles_in(macro, depth))
+            self._roles[macro.name] = tuple(islice(found, _MOST_ROLES))
+        return self._roles[macro.name]
 
+    def _roles_in(self, macro: Macro, depth: int) -> Iterator[Role]:
+        for element in macro.element.walk():
+            if element.tag == "joint":
+                yield from _roles_in_joint(element)
+            if element.tag == "link" and (found := _WITH_END.fullmatch(element.get("name") or "")):
+                yield Role(found[1], "link", found[2])
+            if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
+                yield Role(found[1], "prefix_" if found[2] else "prefix")
+            if called := self._called(element, depth):
+                inner = self._of(called, depth + 1)
+                yield from filter(None, (_role_outside(role, called, element) for role in inner))
 
-def _starts(macro: Macro, library: XacroLibrary, callers: frozenset[str] = frozenset()) -> Iterator[str | None]:
-    """Yield for each name of a link or joint the parameter with which it begins, None for none of the macro's."""
-    for element in macro.element.walk():
-        called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None
-        if called and called.name not in callers:
-            for start in {*_starts(called, library, callers | {macro.name})}:
-                yield _parameter_outside(start, called, element)
-        elif element.tag in ("link", "joint"):
-            found = _FIRST.match(element.get("name") or "")
-            yield found[1] if found and macro.parameter(found[1]) else None
+    def _starts_of(self, macro: Macro, depth: int = 0) -> tuple[str | None, ...]:
+        """Return the parameters with which names of links and joints begin, None for that of another name."""
+        if macro.name not in self._starts:
+            self._starts[macro.name] = ()
+            self._starts[macro.name] = tuple(dict.fromkeys(self._starts_in(macro, depth)))
+        return self._starts[macro.name]
+
+    def _starts_in(self, macro: Macro, depth: int) -> Iterator[str | None]:
+        for element in macro.element.walk():
+            if called := self._called(element, depth):
+                yield from (_parameter_outside(one, called, element) for one in self._starts_of(called, depth + 1))
+            elif element.tag in ("link", "joint"):
+                found = _FIRST.match(element.get("name") or "")
+                yield found[1] if found and macro.parameter(found[1]) else None
+
+    def _called(self, element: XmlElement, depth: int) -> Macro | None:
+        if depth == _MAX_DEPTH or not element.tag.startswith("xacro:"):
+            return None
+        return self._library.macros.get(element.tag.removeprefix("xacro:"))
 
 
 def _parameter_outside(name: str | None, called: Macro, call: XmlElement) -> str | None:
@@ -105,21 +145,6 @@ def _parameter_outside(name: str | None, called: Macro, call: XmlElement) -> str
         return name if parameter and parameter.is_forwarded else None
     found = _FIRST.match(given)
     return found[1] if found else None
-
-
-def roles_of(macro: Macro, library: XacroLibrary, callers: frozenset[str] = frozenset()) -> Iterator[Role]:
-    """Yield what names in a macro are for, also in the macros that it calls."""
-    for element in macro.element.walk():
-        if element.tag == "joint":
-            yield from _roles_in_joint(element)
-        if element.tag == "link" and (found := _WITH_END.fullmatch(element.get("name") or "")):
-            yield Role(found[1], "link", found[2])
-        if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
-            yield Role(found[1], "prefix_" if found[2] else "prefix")
-        called = library.macros.get(element.tag.removeprefix("xacro:")) if element.tag.startswith("xacro:") else None
-        if called and called.name not in callers:
-            inner = roles_of(called, library, callers | {macro.name})
-            yield from filter(None, (_role_outside(role, called, element) for role in inner))
 
 
 def _roles_in_joint(joint: XmlElement) -> Iterator[Role]:

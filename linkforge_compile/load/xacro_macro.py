@@ -32,15 +32,7 @@ from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNO
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.load.macro_roles import (
-    ORIGIN,
-    OwnParent,
-    OwnPrefix,
-    own_parent,
-    own_prefix,
-    parameters_with,
-    roles_of,
-)
+from linkforge_compile.load.macro_roles import ORIGIN, MacroRoles, OwnParent, OwnPrefix
 from linkforge_compile.load.xacro import XacroArgument, XacroUse, open_xacro
 from linkforge_compile.load.xacro_library import Macro, MacroParameter, XacroLibrary, read_library
 from linkforge_compile.source import SourceFile
@@ -163,10 +155,10 @@ class _Arguments:
                 self.values[name] = argument
             elif not parameter:
                 self._give_to_file(name, argument)
-        roles = [*roles_of(self.macro, self.library)]
-        self._set_prefix(own_prefix(self.macro, self.library, roles))
-        self._set_parent(own_parent(self.macro, roles))
-        self._set_place([next(parameters_with(kind, self.macro, roles), None) for kind in ("xyz", "rpy")])
+        roles = MacroRoles(self.library)
+        self._set_prefix(roles.prefix(self.macro))
+        self._set_parent(roles.parent(self.macro))
+        self._set_place(roles.place(self.macro))
 
     def _give_to_file(self, name: str, argument: XacroArgument) -> None:
         known = (*(one.name for one in self.macro.parameters), *self.library.arguments, *self.library.used)

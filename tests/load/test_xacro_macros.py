@@ -491,6 +491,19 @@ def test_params_lists_macros(folder: Path):
     assert any(block.startswith("macro disc") for block in blocks)
 
 
+@pytest.mark.parametrize("calls", [1, 2])
+def test_macros_that_call_one_another_deep_and_often_are_listed_at_once(calls: int, folder: Path):
+    macros = "".join(
+        f'<xacro:macro name="m{i}" params="name parent">'
+        + "".join(f'<xacro:m{i + 1} name="${{name}}_{j}" parent="${{parent}}_{j}"/>' for j in range(calls))
+        + "</xacro:macro>"
+        for i in range(2000 // calls)
+    )
+    (folder / "deep.xacro").write_text(f"{ROOT}>{macros}</robot>", "utf-8")
+    done = linkforge("params", "deep.xacro", cwd=folder)
+    assert (done.returncode, done.stdout.count("macro m")) == (0, 2000 // calls)
+
+
 def test_deps_lists_the_files_of_a_macro(folder: Path, cell: Cell):
     cell("a: {macro: lidar, parent: deck}")
     done = linkforge("deps", "cell.robot.yaml", "--format", "json", cwd=folder)
