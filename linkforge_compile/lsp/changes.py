@@ -2,31 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeAlias
 
 from lsprotocol import types
 
 from linkforge_compile.diagnostics.fix import Edit
-from linkforge_compile.lsp.convert import Columns, uri_of
+from linkforge_compile.lsp.convert import Columns, path_of, uri_of
 from linkforge_compile.roots import identity
 
+Changes: TypeAlias = Mapping[str, Sequence[types.TextEdit]]
+"""The edits of files by their URIs."""
 
-def workspace_edit(
-    edits: Iterable[Edit], versions: Mapping[str, int | None], columns: Columns, client: types.ClientCapabilities
-) -> types.WorkspaceEdit:
-    """Return edits for an editor; `versions` are those of the texts that are open in it, by real path."""
+MakeEdit: TypeAlias = Callable[[Changes], types.WorkspaceEdit]
+"""`workspace_edit` for an editor and the texts that are open in it."""
+
+
+def changes_of(edits: Iterable[Edit], columns: Columns) -> Changes:
+    """Return edits by the URIs of their files."""
     changes: dict[str, list[types.TextEdit]] = {}
-    version_of: dict[str, int | None] = {}
     for edit in edits:
         if path := edit.span.file.path:
             changes.setdefault(uri_of(path), []).append(types.TextEdit(columns.range(edit.span), edit.text))
-            version_of[uri_of(path)] = versions.get(identity(path))
+    return changes
+
+
+def workspace_edit(
+    changes: Changes, versions: Mapping[str, int | None], client: types.ClientCapabilities
+) -> types.WorkspaceEdit:
+    """Return changes for an editor; `versions` are those of the texts that are open in it, by real path."""
     abilities = client.workspace.workspace_edit if client.workspace else None
     if not (abilities and abilities.document_changes):
         return types.WorkspaceEdit(changes=changes)
-    documents = {
-        uri: types.OptionalVersionedTextDocumentIdentifier(uri, version) for uri, version in version_of.items()
-    }
     return types.WorkspaceEdit(
-        document_changes=[types.TextDocumentEdit(documents[uri], listed) for uri, listed in changes.items()]
+        document_changes=[
+            types.TextDocumentEdit(
+                types.OptionalVersionedTextDocumentIdentifier(uri, versions.get(identity(path_of(uri) or ""))), listed
+            )
+            for uri, listed in changes.items()
+        ]
     )

@@ -9,10 +9,11 @@ from lsprotocol import types
 
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic
-from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.diagnostics.grouping import group_at_places
 from linkforge_compile.fixing import apply_safe_fixes, is_proven
-from linkforge_compile.lsp.convert import Columns, uri_of
+from linkforge_compile.lsp.changes import MakeEdit, changes_of
+from linkforge_compile.lsp.convert import uri_of
 from linkforge_compile.lsp.formatting import edits_to
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
@@ -25,19 +26,22 @@ KINDS = (types.CodeActionKind.QuickFix, FIX_ALL)
 
 
 def code_actions(
-    document: Document, selection: types.Range, context: types.CodeActionContext, settings: Settings
+    document: Document, selection: types.Range, context: types.CodeActionContext, settings: Settings, make: MakeEdit
 ) -> list[types.CodeAction]:
     """Return the actions for a selection, of the kinds that the editor asks for.
 
-    Safe fixes are preferred if an analysis with these settings proves them. All of them at once are an action only for
-    an editor that asks for actions of a whole text: they are no answer to one diagnostic.
+    `make` gives their edits the form that the editor takes. Safe fixes are preferred if an analysis with these settings
+    proves them. All of them at once are an action only for an editor that asks for actions of a whole text: they are
+    no answer to one diagnostic.
     """
     check = _check_of(document, settings)
     actions = []
     if _is_wanted(types.CodeActionKind.QuickFix, context.only):
         selected = [one for one in _reported_in(document) if _is_in(one, document, selection)]
-        actions += [action for one in selected for action in _quick_fixes(one, document, context.diagnostics, check)]
-    if context.only and _is_wanted(FIX_ALL, context.only) and (action := _fix_all(document, check)):
+        actions += [
+            action for one in selected for action in _quick_fixes(one, document, context.diagnostics, check, make)
+        ]
+    if context.only and _is_wanted(FIX_ALL, context.only) and (action := _fix_all(document, check, make)):
         actions.append(action)
     return actions
 
@@ -88,49 +92,29 @@ def _check_of(document: Document, settings: Settings) -> _Check:
 
 
 def _quick_fixes(
-    one: Diagnostic, document: Document, shown: Iterable[types.Diagnostic], check: _Check
+    one: Diagnostic, document: Document, shown: Iterable[types.Diagnostic], check: _Check, make: MakeEdit
 ) -> Iterator[types.CodeAction]:
     """Yield an action for each fix of a diagnostic, then one that ignores it; `shown` are those of the editor."""
     columns, before = document.columns, _Checked.of(document.analyses)
     its = [each for each in shown if each.code == one.code.id and one.span and each.range == columns.range(one.span)]
     for fix in one.fixes:
         is_preferred = fix.is_safe and is_proven(one, fix, before, check)
-        yield _action(fix, types.CodeActionKind.QuickFix, columns, its, is_preferred=is_preferred)
+        yield _quick_fix(fix, make(changes_of(fix.edits, columns)), its, is_preferred=is_preferred)
     if comment := ignore_fix(one):
-        yield _action(comment, types.CodeActionKind.QuickFix, columns, its)
+        yield _quick_fix(comment, make(changes_of(comment.edits, columns)), its)
 
 
-def _fix_all(document: Document, check: _Check) -> types.CodeAction | None:
+def _quick_fix(
+    fix: Fix, edit: types.WorkspaceEdit, diagnostics: Sequence[types.Diagnostic], *, is_preferred: bool = False
+) -> types.CodeAction:
+    kind = types.CodeActionKind.QuickFix
+    return types.CodeAction(fix.title, kind, diagnostics, is_preferred=is_preferred or None, edit=edit)
+
+
+def _fix_all(document: Document, check: _Check, make: MakeEdit) -> types.CodeAction | None:
     """Return the action that applies all safe fixes of a text, as `check --fix` does; None if there are none."""
     texts = apply_safe_fixes(check, lambda path: identity(path) == identity(document.path)).texts
     edits = [edit for text in texts.values() for edit in edits_to(text, document)]
-    edit = types.WorkspaceEdit(changes={uri_of(document.path): edits})
-    return types.CodeAction("fix what is certain", FIX_ALL, edit=edit) if edits else None
-
-
-def _action(
-    fix: Fix,
-    kind: str,
-    columns: Columns,
-    diagnostics: Sequence[types.Diagnostic] = (),
-    *,
-    is_preferred: bool = False,
-) -> types.CodeAction:
-    return types.CodeAction(
-        title=fix.title,
-        kind=kind,
-        diagnostics=list(diagnostics),
-        is_preferred=is_preferred or None,
-        edit=types.WorkspaceEdit(changes=_text_edits(fix.edits, columns)),
+    return (
+        types.CodeAction("fix what is certain", FIX_ALL, edit=make({uri_of(document.path): edits})) if edits else None
     )
-
-
-def _text_edits(edits: Iterable[Edit], columns: Columns) -> dict[str, list[types.TextEdit]]:
-    """Return edits as the protocol has them, by the URI of their file."""
-    changes: dict[str, list[types.TextEdit]] = {}
-    for edit in edits:
-        if edit.span.file.path:
-            changes.setdefault(uri_of(edit.span.file.path), []).append(
-                types.TextEdit(columns.range(edit.span), edit.text)
-            )
-    return changes

@@ -12,7 +12,7 @@ from pygls.exceptions import JsonRpcException
 
 from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics.fix import Edit
-from linkforge_compile.lsp.changes import workspace_edit
+from linkforge_compile.lsp.changes import changes_of, workspace_edit
 from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import path_of
@@ -191,7 +191,7 @@ def _add_rename(server: SpecServer) -> None:
                 raise RefusedError("the workspace changed meanwhile; try again")
         if edits is None:
             return None
-        return workspace_edit(edits, server.specs.versions, server.columns, server.client_capabilities)
+        return workspace_edit(changes_of(edits, server.columns), server.specs.versions, server.client_capabilities)
 
 
 @contextmanager
@@ -241,7 +241,10 @@ def _add_actions(server: SpecServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=KINDS))
     async def _act(params: types.CodeActionParams) -> list[types.CodeAction] | None:
         selection, context = params.range, params.context
-        return await server.answer(
+        await server.wait_for(params.text_document.uri)
+        # Taken together with the document: a later change does not give its version to edits of this text.
+        make = partial(workspace_edit, versions=server.specs.versions, client=server.client_capabilities)
+        return await server.answer_at_once(
             params.text_document.uri,
-            lambda document, settings: code_actions(document, selection, context, settings),
+            lambda document, settings: code_actions(document, selection, context, settings, make),
         )

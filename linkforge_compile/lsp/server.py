@@ -124,7 +124,7 @@ class SpecServer(LanguageServer):
         path = path_of(uri)
         return self.specs.document(path, self.columns) if path else None
 
-    async def _wait_for(self, uri: str) -> None:
+    async def wait_for(self, uri: str) -> None:
         """Wait until the text of a spec is analysed, by itself and by those that read it."""
         path = path_of(uri)
         while path and (pending := self.specs.pending_for(path)):
@@ -137,7 +137,7 @@ class SpecServer(LanguageServer):
 
     async def answer(self, uri: str, work: _Work[_Result]) -> _Result | None:
         """Do what a request needs with an open spec once its text is analysed; None if it is not open."""
-        await self._wait_for(uri)
+        await self.wait_for(uri)
         return await self.answer_at_once(uri, work)
 
     def in_thread(self, work: Callable[[], _Result]) -> asyncio.Future[_Result]:

@@ -140,3 +140,20 @@ def test_the_server_says_which_actions_it_has(editor: Editor):
     provider = editor.capabilities.code_action_provider
     assert isinstance(provider, types.CodeActionOptions)
     assert list(provider.code_action_kinds or ()) == ["quickfix", "source.fixAll.linkforge"]
+
+
+def test_edits_have_the_version_of_the_text_that_they_are_for(tmp_path: Path):
+    resource = types.WorkspaceEditClientCapabilities(document_changes=True)
+    abilities = types.ClientCapabilities(workspace=types.WorkspaceClientCapabilities(workspace_edit=resource))
+    path, text = tmp_path / "arm.robot.yaml", SPEC.replace("fixed", "Fixed")
+    with Editor(tmp_path, abilities=abilities) as editor:
+        editor.open(path, SPEC)
+        found = actions(editor, path, text, "Fixed", ["quickfix", "source.fixAll"])
+    assert [one.kind for one in found] == ["quickfix", "source.fixAll.linkforge"]
+    for action in found:
+        assert action.edit is not None
+        assert action.edit.changes is None
+        (change,) = action.edit.document_changes or ()
+        assert isinstance(change, types.TextDocumentEdit)
+        assert (change.text_document.uri, change.text_document.version) == (path.as_uri(), 2)
+        assert [edit.range.start.line for edit in change.edits] == [6]
