@@ -155,6 +155,24 @@ def test_a_joint_is_shown_in_its_tree(editor: Editor, cell: Path):
     assert "velocity 1.0472 rad/s (`60 deg/s`)" in found
 
 
+@pytest.mark.parametrize(
+    ("slip", "marked", "facts"),
+    [
+        (("base: {}", "base: {inertial: {mass: 2 kgg}}"), "ba¦se:", ("the root", "kg")),
+        (("60 deg/s", "60 dge/s"), "el¦bow:", ("from `base` to `tip`", "rad/s")),
+        (("axis: z", "axis: q"), "el¦bow:", ("from `base` to `tip`", "axis [")),
+    ],
+)
+def test_values_that_cannot_be_read_have_none_in_their_place(
+    editor: Editor, cell: Path, slip: tuple[str, str], marked: str, facts: tuple[str, str]
+):
+    text = ARM_TEXT.replace(*slip).replace(marked.replace("¦", ""), marked)
+    found, (shown, hidden) = hover(editor, cell / "arm.robot.yaml", text).partition("\n\n---")[0], facts
+    assert shown in found
+    assert "values are shown once the errors in it are mended" in found
+    assert hidden not in found
+
+
 def test_the_code_in_a_comment_leads_to_its_page(editor: Editor, cell: Path):
     marked = ARM_TEXT.replace("  tip: {}", "  tip: {}  # linkforge: ignore LF60¦04")
     found = hover(editor, cell / "arm.robot.yaml", marked)

@@ -10,6 +10,7 @@ from linkforge_compile.core.models.graph import child_joints, parent_joints, wal
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Inertial, Link
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Severity
 from linkforge_compile.editor.completions import marked_names
 from linkforge_compile.export_spec import UnknownPathError, explain
 from linkforge_compile.export_spec.explain import computed_from
@@ -25,11 +26,12 @@ from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.overview.joint_text import short
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.descriptions import described_at
-from linkforge_compile.source import Position, Span
+from linkforge_compile.source import Position, SourceRef, Span
 from linkforge_compile.syntax import YamlMap, YamlNode
 from linkforge_compile.units import ACCELERATION, EFFORT, JERK, POSITION, SPEED, FieldUnit
 
 _MAX_LINES = 20
+_UNKNOWN = "values are shown once the errors in it are mended"
 _SECTIONS = {kind: "/".join(path) for path, kind in DECLARING.items() if path != ("frames",)}
 _LIMITS = {
     "lower": POSITION,
@@ -79,10 +81,19 @@ def _describe(one: Occurrence, analysis: Analysis) -> str:
     if robot is None:
         return ""
     if one.kind == "link" and one.name in robot.links:
-        return _link(robot.link(one.name), robot)
+        return _link(robot.link(one.name), robot, is_faulty=_has_error(robot.link(one.name).source, analysis))
     if one.kind == "joint" and one.name in robot.joints:
-        return _joint(robot.joint(one.name), robot)
+        return _joint(robot.joint(one.name), robot, is_faulty=_has_error(robot.joint(one.name).source, analysis))
     return _other(one, robot)
+
+
+def _has_error(source: SourceRef | None, analysis: Analysis) -> bool:
+    """Whether an error is in a part, so that some of its values only stand in for those that cannot be read."""
+    whole = source.node.span if source else None
+    errors = (one.span for one in analysis.compilation.diagnostics if one.severity is Severity.ERROR and one.span)
+    return whole is not None and any(
+        at.file.name == whole.file.name and whole.start <= at.start <= whole.end for at in errors
+    )
 
 
 def _other(one: Occurrence, robot: Robot) -> str:
@@ -99,11 +110,11 @@ def _other(one: Occurrence, robot: Robot) -> str:
     return f"**{one.kind} {code(one.name)}**\n\n{code_block(shown, 'yaml')}"
 
 
-def _link(link: Link, robot: Robot) -> str:
+def _link(link: Link, robot: Robot, *, is_faulty: bool) -> str:
     above, below = parent_joints(robot.joints).get(link.name), child_joints(robot.joints).get(link.name, ())
     ends = (f"{code(joint.name)} to {code(joint.child)}" for joint in below[:MAX_SHOWN])
     facts = [
-        *(_inertial(link.inertial) if link.inertial else ["no mass"]),
+        *([_UNKNOWN] if is_faulty else _inertial(link.inertial) if link.inertial else ["no mass"]),
         f"parent {code(above.parent)}, by the {above.type} joint {code(above.name)}" if above else "the root",
         *(f"joint {end}" for end in ends),
         and_more(len(below) - MAX_SHOWN),
@@ -128,18 +139,24 @@ def _inertial(inertial: Inertial) -> list[str]:
     ]
 
 
-def _joint(joint: Joint, robot: Robot) -> str:
-    xyz, rpy = joint.origin.xyz, joint.origin.rpy
-    turned = f", rpy [{', '.join(map(short, rpy))}] rad" if any(rpy) else ""
+def _joint(joint: Joint, robot: Robot, *, is_faulty: bool) -> str:
     facts = [
         f"from {code(joint.parent)} to {code(joint.child)}",
-        f"axis [{', '.join(map(short, joint.axis))}]" if joint.axis else "",
-        f"origin [{', '.join(map(short, xyz))}] m{turned}" if any(xyz) or turned else "",
-        *_limits(joint),
+        *([_UNKNOWN] if is_faulty else _joint_values(joint)),
         f"mimics {code(joint.mimic.joint)}" if joint.mimic else "",
     ]
     title = f"**{joint.type} joint {code(joint.name)}**"
     return "\n\n".join((title, bullets(facts), code_block(tree_lines(joint, robot))))
+
+
+def _joint_values(joint: Joint) -> Iterator[str]:
+    xyz, rpy = joint.origin.xyz, joint.origin.rpy
+    turned = f", rpy [{', '.join(map(short, rpy))}] rad" if any(rpy) else ""
+    if joint.axis:
+        yield f"axis [{', '.join(map(short, joint.axis))}]"
+    if any(xyz) or turned:
+        yield f"origin [{', '.join(map(short, xyz))}] m{turned}"
+    yield from _limits(joint)
 
 
 def _limits(joint: Joint) -> Iterator[str]:
