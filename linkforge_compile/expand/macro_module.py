@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.importing import MACRO_PLACES_ITSELF
+from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET
 from linkforge_compile.expand.long_forms import with_frames_as_joints
 from linkforge_compile.expand.modules import ModuleEntry
 from linkforge_compile.load.loader import Loader, SpecFile
@@ -43,6 +44,13 @@ def open_macro(
         tree = _with_joints_at(result.parent, joints, tree, result, fields.get("origin"))
         entry = replace(entry, ref=replace(entry.ref, node=fields), shared_link=result.parent.text)
         return replace(result.spec, tree=tree), entry
+    if len(joints) > 1:
+        what, notes = (
+            f"'parent' of module '{entry.name}' has",
+            [Note("this joint attaches it, too", joints[1].key.span)],
+        )
+        sink.report(PARAMETER_NOT_SET.at(macro.span, what=what, remedy="'parent: LINK'", notes=notes))
+        return None, entry
     fields = _with_own_origin(fields, joints, result)
     mount = YamlMap({one.name: YamlEntry(one.key, _without_ends(one.value)) for one in joints}, tree.span)
     return replace(result.spec, tree=tree.with_value("mount", mount)), replace(

@@ -184,16 +184,18 @@ def take_shared_link(robot: Robot, module: Instance, sink: Diagnostics) -> tuple
     robot.joints = tuple(joint for joint in robot.joints if joint.parent != link)
     robot.links = tuple(one for one in robot.links if one.name != link)
     return tuple(
-        ModuleJoint(joint.name, joint.with_fields(parent=parent).with_source(joint.source) if parent else None)
+        ModuleJoint(joint.name, joint.with_fields(parent=parent).with_source(source) if parent else None)
         for joint in joints
+        for source in [_with_ends_of(entry.node, joint.source, ("parent",))]
     )
 
 
-def _with_ends_of(entry: YamlMap, mount: SourceRef | None) -> SourceRef | None:
+def _with_ends_of(entry: YamlMap, mount: SourceRef | None, ends: Sequence[str] = _ENDS) -> SourceRef | None:
     """Return the source of a mount, with the `parent` and `origin` of the entry of its module."""
     if mount is None or not isinstance(mount.node, YamlMap):
         return mount
-    return replace(mount, node=YamlMap({**mount.node.entries, **_ends_in(entry)}, mount.node.span))
+    of_entry = {key: end for key, end in _ends_in(entry).items() if key in ends}
+    return replace(mount, node=YamlMap({**mount.node.entries, **of_entry}, mount.node.span))
 
 
 def attach_to_world(robot: Robot, mount: ModuleJoint, root: str | None, sink: Diagnostics) -> UnresolvedNames:

@@ -355,6 +355,13 @@ FAULTS = {
         5,
         "'nothing' makes no",
     ),
+    "several joints without a parent": ("a: {macro: bumpers}", "LF3021", 5, "'parent' of module 'a' has no default"),
+    "several joints to no link": (
+        "a: {macro: bumpers, parent: dek}",
+        "LF4102",
+        5,
+        "no link named 'dek'; did you mean 'deck'?",
+    ),
     "joints beside the entry's": (
         "a: {macro: bumpers, parent: deck, joint: weld}",
         "LF5324",
