@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
+from math import floor, log10
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,8 @@ WIDTH = 100
 _LABEL = 16
 _MOST_NAMES = 12
 """How many names of one kind are shown in text."""
+_NEGLIGIBLE = 1e-9
+"""A length that is 0 but for rounding [m]."""
 
 
 def render_figures(figures: Figures, listing: Listing | None) -> Iterator[str]:
@@ -86,12 +89,12 @@ def _mass_rows(mass: Mass, root: str) -> Iterator[tuple[str, str]]:
 
 
 def _reach_text(reach: Reach) -> str:
-    return f"at most {_millimetres(reach.bound)} m, {reach.link} from {reach.start}"
+    return f"at most {_lengths(reach.bound)[0]} m, {reach.link} from {reach.start}"
 
 
 def _extent_rows(extent: Extent) -> Iterator[tuple[str, str]]:
     if extent.box:
-        sides = " x ".join(_millimetres(side) for side in extent.box.sides)
+        sides = " x ".join(_lengths(*extent.box.sides))
         corners = f"from {_vector(extent.box.low)} to {_vector(extent.box.high)}"
         yield "size", f"{sides} m, every joint at 0; {corners}"
     reasons: dict[str, list[str]] = {}
@@ -126,12 +129,19 @@ def _names(names: Sequence[str]) -> str:
 
 
 def _vector(values: Iterable[float]) -> str:
-    return f"[{', '.join(map(_millimetres, values))}]"
+    return f"[{', '.join(_lengths(*values))}]"
 
 
-def _millimetres(value: float) -> str:
-    """Return a length [m], rounded to a tenth of a millimetre."""
-    return short(round(value, 4))
+def _decimals(values: Sequence[float]) -> int:
+    """Return the decimals that lengths keep: to a tenth of a millimetre, and below 1 cm four digits of the largest."""
+    largest = max(map(abs, values), default=0.0)
+    return 4 if largest >= 0.01 or largest < _NEGLIGIBLE else 3 - floor(log10(largest))
+
+
+def _lengths(*values: float) -> list[str]:
+    """Return lengths [m] that belong together, with the same last decimal."""
+    decimals = _decimals(values)
+    return [short(round(value, decimals) + 0.0) for value in values]
 
 
 def _count(number: int, noun: str) -> str:

@@ -11,6 +11,7 @@ import trimesh
 from linkforge_compile import check_file, compile_text, render_urdf
 from linkforge_compile.core import Robot
 from linkforge_compile.overview.figures import Figures, figures_of, mass_of
+from linkforge_compile.overview.figures_text import render_figures
 from linkforge_compile.overview.reach import reaches_from, zero_poses
 from tests.conftest import ROOT
 from tests.consumers import pinocchio_model
@@ -217,3 +218,10 @@ def test_a_mesh_outside_of_the_folders_of_a_spec_is_not_read(tmp_path: Path):
     figures = figures_of(robot_of(spec))
     assert (figures.extent.box, figures.meshes[0].size) == (None, None)
     assert "outside" in (figures.meshes[0].missing or "")
+
+
+def test_a_robot_of_a_millimetre_is_not_rounded_to_another_one():
+    text = "linkforge: 1\nname: micro\nlinks: {chip: {visual: {box: [0.125 mm, 0.125 mm, 0.85 mm]}}}\n"
+    lines = "\n".join(render_figures(figures_of(compile_text(text).result()), None))
+    assert "0.000125 x 0.000125 x 0.00085 m" in lines
+    assert "from [-6.25e-5, -6.25e-5," in lines
