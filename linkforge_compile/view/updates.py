@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TypedDict
 
@@ -36,7 +37,8 @@ class Problem(TypedDict):
 class ParameterSetting(TypedDict):
     """A parameter as its widget shows it; numbers are in `unit`, an SI unit.
 
-    `value` is what the user set, as text; None for the default, which the chosen variant may replace.
+    `value` is what the user set, as text; None for the default, which the chosen variant may replace. `number` is what
+    the slider shows of them; None if they are no number.
     """
 
     name: str
@@ -44,6 +46,7 @@ class ParameterSetting(TypedDict):
     unit: str | None
     value: str | None
     default: str | None
+    number: float | None
     minimum: Plain
     maximum: Plain
     choices: list[Plain] | None
@@ -101,11 +104,24 @@ def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None
         "unit": parameter.unit,
         "value": value,
         "default": default,
+        "number": _number(default if value is None else value),
         "minimum": parameter.minimum,
         "maximum": parameter.maximum,
         "choices": parameter.choices,
         "description": parameter.description,
     }
+
+
+def _number(text: str | None) -> float | None:
+    """Return the number of a text without a unit, or of a quantity in its SI unit; None for any other text."""
+    quantity = parse_quantity(text) if text else None
+    if quantity:
+        return quantity.value
+    try:
+        number = float(text or "")
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 def _as_choice(text: str | None, unit: str | None) -> str | None:

@@ -28,7 +28,7 @@ CORPUS = ("robotiq_2f_85", "kinova_gen3_7dof_2f85", "anymal", "interbotix_wx250s
 ALL_KINDS = """\
 linkforge: 1
 name: kinds
-links: {a: , b: , c: , d: , e: , f: }
+links: {a: , b: , c: , d: , e: , f: , g: , h: }
 joints:
   slide:
     {type: prismatic, parent: a, child: b, origin: {xyz: [1, 2, 3], rpy: [0.1, 0.2, 0.3]}, axis: [1, 2, -1],
@@ -42,6 +42,8 @@ joints:
     {type: prismatic, parent: d, child: e, origin: [0, 1, 0], axis: z, mimic: {joint: follow, multiplier: 0.5},
      limits: {lower: -3, upper: 3, effort: 1, velocity: 1}}
   weld: {type: fixed, parent: e, child: f, origin: {xyz: [0, 0, 1], rpy: [0, 1, 0]}}
+  glide: {type: planar, parent: f, child: g, origin: {xyz: [1, 0, 1], rpy: [0, 0.5, 0]}, axis: z}
+  float: {type: floating, parent: g, child: h, origin: {xyz: [0, 2, 1], rpy: [1, 0, 0]}}
 """
 
 
@@ -80,7 +82,7 @@ def random_positions(joints: list[SceneJoint], chance: random.Random) -> dict[st
 
 
 def configuration(model: Any, positions: dict[str, float]) -> np.ndarray:
-    q = np.zeros(model.nq)
+    q = pytest.importorskip("pinocchio").neutral(model)  # where the page has planar and floating joints
     for name, position in positions.items():
         joint = model.joints[model.getJointId(name)]
         q[joint.idx_q : joint.idx_q + joint.nq] = (

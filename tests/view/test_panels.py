@@ -351,6 +351,28 @@ def test_an_update_keeps_positions_within_new_limits_and_the_selection(live: Any
     expect(live.get_by_role("checkbox", name="collisions")).to_be_checked()
 
 
+def test_a_renamed_joint_keeps_its_position_and_another_one_does_not_take_it(live: Any, spec: Path):
+    slide(live, "lift", 0.8)
+    spec.write_text(SPEC.replace("  lift:", "  raise:"))
+    expect(live.get_by_label("position of raise", exact=True)).to_be_visible()
+    assert positions(live) == {"raise": pytest.approx(0.8)}
+    spec.write_text(SPEC.replace("  lift:", "  slide:").replace("revolute", "prismatic").replace(" rad,", " m,"))
+    expect(live.get_by_label("position of slide", exact=True)).to_be_visible()
+    assert positions(live) == {"slide": 0}
+
+
+def test_a_narrow_window_has_all_of_the_bar_and_the_panels_below_the_robot(show: Open, tab: Any):
+    tab.set_viewport_size({"width": 390, "height": 800})
+    show()
+    for button in tab.locator("#bar button").all():
+        box = button.bounding_box()
+        assert box["x"] + box["width"] <= 390
+        assert button.evaluate("button => button.scrollWidth <= button.clientWidth")
+    picture, panel = (tab.locator(one).bounding_box() for one in ("#viewport", "#right"))
+    assert picture["width"] == panel["width"] == 390
+    assert picture["y"] + picture["height"] <= panel["y"]
+
+
 def test_problems_of_the_spec_are_over_the_last_good_robot(live: Any, spec: Path):
     problems = live.locator(".problems")
     expect(problems).to_be_hidden()
@@ -371,6 +393,7 @@ def test_widgets_of_parameters_compile_the_spec_again(live: Any):
     number.fill("700 mm")
     number.press("Enter")
     expect(details).to_contain_text("box 0.1 × 0.1 × 0.7 m")
+    expect(live.get_by_label("reach, slider")).to_have_value("0.7")
     live.get_by_title("set reach to its default").click()
     expect(details).to_contain_text("box 0.1 × 0.1 × 1 m")
     slider = live.get_by_label("reach, slider")

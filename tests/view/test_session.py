@@ -101,6 +101,7 @@ def test_a_parameter_has_what_its_widget_needs(session: Session):
         "unit": "m",
         "value": None,
         "default": "50 cm",
+        "number": 0.5,
         "minimum": 0.1,
         "maximum": 2,
         "choices": None,

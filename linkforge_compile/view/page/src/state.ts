@@ -34,6 +34,8 @@ export interface Parameter {
   value: string | null;
   /** null: the parameter is required. */
   default: string | null;
+  /** What the slider shows, in `unit`; null: no number. */
+  number: number | null;
   minimum: number | null;
   maximum: number | null;
   choices: (string | number | boolean)[] | null;
@@ -207,9 +209,9 @@ export class State {
     this.#tell("live");
   }
 
-  /** Show another robot; positions, layers and the selection stay as far as their names do. */
+  /** Show another robot; positions, layers and the selection stay as far as their names do, or a joint's child link. */
   setScene(scene: Scene): void {
-    const before = this.#set;
+    const before = renamed(this.#set, this.#scene, scene);
     const isFirst = isEmpty(this.#scene);
     this.#scene = scene;
     this.#index();
@@ -242,6 +244,18 @@ export class State {
 /** Whether a scene is what a live viewer shows before the first robot. */
 export function isEmpty(scene: Scene): boolean {
   return scene.live && !scene.version;
+}
+
+/** Return positions under the names of another scene: of a joint that is gone, by the new one of its child link. */
+function renamed(positions: Positions, before: Scene, after: Scene): Positions {
+  const [old, now] = [before, after].map(({ joints }) => new Map(joints.map(({ name, type }) => [name, type])));
+  const byChild = new Map(after.joints.filter(({ name }) => !old!.has(name)).map((joint) => [joint.child, joint]));
+  const found: Record<string, number> = { ...positions };
+  for (const { name, type, child } of before.joints) {
+    const joint = byChild.get(child);
+    if (!now!.has(name) && joint?.type === type && positions[name] !== undefined) found[joint.name] = positions[name];
+  }
+  return found;
 }
 
 function startPositions(scene: Scene): Record<string, number> {

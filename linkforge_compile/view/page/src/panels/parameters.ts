@@ -33,7 +33,7 @@ class ParameterPanel {
   show(): void {
     const { parameters, variants } = this.state.settings;
     this.section.hidden = parameters.length === 0 && variants.length === 0;
-    const key = JSON.stringify([variants, parameters.map(({ value: _, ...declared }) => declared)]);
+    const key = JSON.stringify([variants, parameters.map(({ value: _, number: __, ...declared }) => declared)]);
     if (key !== this.shownKey) this.rebuild();
     this.shownKey = key;
     parameters.forEach((parameter, index) => {
@@ -118,9 +118,8 @@ class Widget {
     const isTyped = this.input.type === "text" && document.activeElement === this.input;
     if (!isOwn && this.input.type === "checkbox") (this.input as HTMLInputElement).checked = text === "true";
     else if (!isOwn && !isTyped) this.input.value = text;
-    const number = inUnit(text, parameter.unit);
-    if (this.slider) this.slider.hidden = Number.isNaN(number);
-    if (this.slider && !isOwn && document.activeElement !== this.slider) this.slider.value = String(number);
+    if (this.slider) this.slider.hidden = parameter.number === null;
+    if (this.slider && !isOwn && document.activeElement !== this.slider) this.slider.value = String(parameter.number);
     this.reset.style.visibility = parameter.value === null || parameter.value === parameter.default ? "hidden" : "";
     this.fault.replaceChildren(fault);
     this.fault.hidden = fault === "";
@@ -168,11 +167,4 @@ function titleOf({ type, unit, minimum, maximum, default: start, description }: 
 
 function withUnit(value: string | number | boolean, unit: string | null): string {
   return unit ? `${value} ${unit}` : String(value);
-}
-
-/** Return the number of a text in this unit, or without a unit; NaN for any other text. */
-function inUnit(text: string, unit: string | null): number {
-  const [number, written, ...more] = text.trim().split(/\s+/);
-  const isIn = more.length === 0 && (written === undefined || written === unit);
-  return isIn && number ? Number(number) : Number.NaN;
 }

@@ -46,8 +46,10 @@ function missingFiles(state: State): Problem[] {
 
 function headingOf(state: State, all: readonly Problem[]): string {
   const errors = all.filter(({ severity }) => severity === "error").length;
-  const warnings = all.length - errors;
-  const parts = [state.connection, errors ? counted(errors, "error") : "", warnings ? counted(warnings, "warning") : ""];
+  const warnings = all.filter(({ severity }) => severity === "warning").length;
+  const notes = all.length - errors - warnings;
+  const counts = ([[errors, "error"], [warnings, "warning"], [notes, "note"]] as const).map(([count, noun]) => (count ? counted(count, noun) : ""));
+  const parts = [state.connection, ...counts];
   if (errors) parts.push(state.scene.links.length ? "the last good robot is shown" : "no robot can be shown yet");
   return parts.filter(Boolean).join(" · ");
 }
