@@ -126,7 +126,7 @@ def test_arguments_of_a_xacro_are_offered(editor: Editor, tmp_path: Path):
     text = "linkforge: 1\nname: cell\nmodules:\n  arm:\n    use: arm.xacro\n    with: {¦}\n"
     editor.open(cell, text.replace("¦", ""))
     editor.diagnostics(cell)
-    assert labels_at(editor, cell, text) == ["reach", "parameter"]
+    assert labels_at(editor, cell, text) == ["reach"]
 
 
 def test_macros_of_a_xacro_are_offered_and_their_parameters(editor: Editor, tmp_path: Path):
@@ -140,7 +140,7 @@ def test_macros_of_a_xacro_are_offered_and_their_parameters(editor: Editor, tmp_
     editor.open(cell, entry.format("lidar\n"))
     editor.diagnostics(cell)
     assert labels_at(editor, cell, entry.format("¦\n")) == ["lidar", "wheel"]
-    assert labels_at(editor, cell, entry.format("lidar\n    with: {¦}\n")) == ["radius", "parameter"]
+    assert labels_at(editor, cell, entry.format("lidar\n    with: {¦}\n")) == ["radius"]
 
 
 def test_files_outside_of_what_a_spec_may_read_are_not_offered(editor: Editor, tmp_path: Path):
@@ -240,3 +240,22 @@ def test_a_state_offers_the_joints_of_its_group_first(editor: Editor, tmp_path: 
     editor.open(file, text.replace("¦", ""))
     editor.diagnostics(file)
     assert [label for label in labels_at(editor, file, text) if label in "abcd"] == ["c", "d", "a", "b"]
+
+
+@pytest.mark.parametrize("value", ["$(¦)", "$(r¦"])
+def test_a_value_that_is_being_written_is_not_shown(editor: Editor, tmp_path: Path, value: str):
+    text, at = split_at_cursor(
+        f"linkforge: 1\nname: arm\nvariables:\n  reach: 1 m\n  half: {value}\nlinks: {{base: {{}}}}\n"
+    )
+    found = {item.label: item.detail for item in completions(editor, tmp_path / "arm.robot.yaml", text, at)}
+    assert (found["reach"], found["half"]) == ("variable: 1 m", "variable")
+
+
+def test_arguments_have_no_example_of_another_module(editor: Editor, tmp_path: Path):
+    hand = "linkforge: 1\nname: hand\nparameters: {grip: 1 N}\nlinks: {palm: {}}\n"
+    (tmp_path / "hand.robot.yaml").write_text(hand)
+    file, text = tmp_path / "arm.robot.yaml", "linkforge: 1\nname: arm\nlinks: {base: {}}\n"
+    text += "modules: {h: {use: hand.robot.yaml, parent: base, with: {¦}}}\n"
+    editor.open(file, text.replace("¦", ""))
+    editor.diagnostics(file)
+    assert labels_at(editor, file, text) == ["grip"]

@@ -214,3 +214,9 @@ def test_a_file_that_is_not_open_shows_nothing(editor: Editor, cell: Path):
     document = types.TextDocumentIdentifier((cell / "closed.robot.yaml").as_uri())
     params = types.HoverParams(document, types.Position(3, 4))
     assert editor.ask(lambda client: client.text_document_hover_async(params)) is None
+
+
+@pytest.mark.parametrize("marked", ["def¦ault: 50", "default: 5¦0"])
+def test_a_key_that_takes_any_value_is_shown(editor: Editor, cell: Path, marked: str):
+    found = hover(editor, cell / "arm.robot.yaml", ARM_TEXT.replace("default: 50", marked))
+    assert found.startswith("**default**\n\nIts value unless it is set")

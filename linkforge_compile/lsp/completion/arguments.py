@@ -40,16 +40,20 @@ def parameter_at(context: Context) -> ListedParameter | None:
     return next((one for one in parameters_in(context, tuple(around)) if one.name == name), None)
 
 
+def has_arguments(path: tuple[str | int, ...]) -> bool:
+    """Whether the map at a path has values for parameters."""
+    is_variant = path[:1] == ("variants",) and len(path) == _DEPTH_OF_VARIANT
+    return is_variant or (path[-3:-2] == ("modules",) and path[-1:] == ("with",))
+
+
 def parameters_in(context: Context, path: tuple[str | int, ...]) -> tuple[ListedParameter, ...]:
     """Return the parameters that the map at a path has values for; none if it is not one of arguments."""
     spec = context.readable.spec if context.readable else None
-    is_variant = path[:1] == ("variants",) and len(path) == _DEPTH_OF_VARIANT
-    is_with = path[-3:-2] == ("modules",) and path[-1:] == ("with",)
-    if spec is None or not (is_variant or is_with):
+    if spec is None or not has_arguments(path):
         return ()
     loader = context.settings.loader(context.document.path)
     try:
-        if is_variant:
+        if path[-1:] != ("with",):
             return list_parameters(spec, loader, Diagnostics()).parameters
         use, macro = (context.node((*path[:-1], key)) for key in ("use", "macro"))
         listing = list_use(spec, use, loader) if isinstance(use, YamlScalar) else None

@@ -85,6 +85,8 @@ def _in_quotes(context: Context, before: str, typed: str) -> list[Offer]:
 def _names(scope: dict[str, _Name], context: Context, typed: int) -> Iterator[Offer]:
     for name, known in scope.items():
         detail = as_written(known.value) if known.value else ""
+        if MARKER in detail:  # the position is in its value
+            detail = ""
         offer = _offer(
             name, f"{known.what}: {detail}" if detail else known.what, Kind.Variable, REQUIRED, typed, context
         )

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from linkforge_compile.editor.keys_by_type import keys_by_type
+from linkforge_compile.lsp.completion.arguments import has_arguments
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.items import (
     COMMON,
@@ -30,8 +31,10 @@ def offer_keys(context: Context) -> list[Offer]:
     offers = [offer for branch in context.branches for offer in _keys_of(branch, context)]
     offers += [_name(name, kind, context) for name, kind in keys_that_name(context)]
     new = unique(offer for offer in offers if offer.label not in known)
-    snippets = [] if context.after_word.lstrip().startswith(":") else [*_snippets(context, is_empty=not known)]
-    return [*new, *snippets]
+    # The example of an argument is none of this module.
+    if context.after_word.lstrip().startswith(":") or has_arguments(context.cursor.path):
+        return [*new]
+    return [*new, *_snippets(context, is_empty=not known)]
 
 
 def _keys_of(branch: Described, context: Context) -> Iterator[Offer]:

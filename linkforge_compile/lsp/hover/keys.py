@@ -28,12 +28,15 @@ def describe_key(path: tuple[str | int, ...], word: str = "") -> str:
     if not branches or not path:
         return ""
     meaning = _meaning(branches, word)
-    return "\n\n".join(filter(None, (f"**{path[-1]}**: {_expected(branches)}", meaning, *_described(branches))))
+    title = ": ".join(filter(None, (f"**{path[-1]}**", _expected(branches))))
+    return "\n\n".join(filter(None, (title, meaning, *_described(branches))))
 
 
 def _expected(branches: Sequence[Described]) -> str:
     nouns = (
-        expected(one.schema) for one in branches if one.schema.get("title") not in _UNMENTIONED and not _words(one)
+        expected(one.schema)
+        for one in branches
+        if one.schema.get("title", _UNMENTIONED[0]) not in _UNMENTIONED and not _words(one)
     )
     words = [code(word) for one in branches for word in _words(one)]
     listed = [" | ".join(words)] if words else []
