@@ -1,14 +1,16 @@
-"""The joint that attaches the links of a macro to others, if the macro can be a module."""
+"""The joint that attaches the links of a macro to others, and what else of a macro is about others."""
 
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator
 
 from linkforge_compile.migration.placeholders import key_of
 from linkforge_compile.migration.symbols import CannotTranslateError, NotConstantError, symbols_in
 from linkforge_compile.migration.template import Choice, Content, Element, Use
 from linkforge_compile.migration.written import canonical
+from linkforge_compile.source.xml_tree import XmlElement
 
 Guards = tuple[ast.expr, ...]
 """The conditions under which something exists."""
@@ -29,7 +31,8 @@ def find_attachment(content: list[Content], *, may_be_nested: bool = False) -> E
     links = {_name(one, "name") for one, _ in found if one.tag == "link"}
     joints = [(one, guards) for one, guards in found if one.tag == "joint"]
     if not links:
-        raise CannotTranslateError("it has no links of its own")
+        what = "it has joints, and no links" if joints else "it has no links and joints"
+        raise CannotTranslateError(what)
     outside = [(one, guards) for one, guards in joints if _end(one, "parent") not in links]
     if conditions := [test for _, guards in outside for test in guards]:
         raise NotConstantError(frozenset().union(*map(symbols_in, conditions)))
@@ -48,6 +51,61 @@ def find_attachment(content: list[Content], *, may_be_nested: bool = False) -> E
     return attached
 
 
+def outer_parts(content: list[Content]) -> frozenset[XmlElement]:
+    """Return what of a content is about other parts, so that the file that uses it as a module has to have it.
+
+    These are the joints to other links, unless one always carries the root of its largest tree of links, the links of
+    its other trees, and settings for parts outside of it.
+    """
+    found = list(parts_of(content, ()))
+    links = {_name(one, "name") for one, _ in found if one.tag == "link"}
+    joints = [(one, guards) for one, guards in found if one.tag == "joint"]
+    inner = [one for one, _ in joints if _end(one, "parent") in links and _end(one, "child") in links]
+    roots = links - {_end(one, "child") for one in inner}
+    outer = [(one, guards) for one, guards in joints if one not in inner]
+    tree = _main_tree(links, inner, roots)
+    mounts = [one for one, guards in outer if not guards and _end(one, "child") in tree & roots]
+    carried = {_end(one, "child") for one, _ in outer} - tree
+    is_mount = len(mounts) == 1 and len(outer) == 1 + len([one for one, _ in outer if _end(one, "child") in carried])
+    moved = [one for one, _ in outer if not (is_mount and one in mounts)]
+    moved += [one for one in inner if _end(one, "child") not in tree]
+    moved += [one for one, _ in found if one.tag == "link" and _name(one, "name") not in tree]
+    names = tree | {_name(one, "name") for one, _ in joints if one not in moved}
+    moved += [one for one, _ in found if one.tag in _SETTINGS and not _subjects(one) <= names]
+    return frozenset(one.origin for one in moved if one.origin is not None)
+
+
+def _main_tree(links: set[str], joints: list[Element], roots: set[str]) -> set[str]:
+    """Return the links of the tree that has most of them; all of them if there is none."""
+    above = {_end(one, "child"): _end(one, "parent") for one in joints}
+
+    def root_of(link: str) -> str:
+        for _ in links:
+            link = above.get(link, link)
+        return link
+
+    trees = Counter(map(root_of, links))
+    root, size = trees.most_common(1)[0] if trees else ("", 0)
+    return {link for link in links if root_of(link) == root} if root in roots and 2 * size > len(links) else links
+
+
+def repeated_parts(contents: list[list[Content]]) -> frozenset[XmlElement]:
+    """Return the elements of ros2_control and transmissions that have one name in several contents, as raw XML may."""
+    found = [one for content in contents for one, _ in parts_of(content, ()) if one.tag in _SETTINGS[1:]]
+    names = Counter((one.tag, _name(one, "name")) for one in found)
+    return frozenset(one.origin for one in found if one.origin and names[one.tag, _name(one, "name")] > 1)
+
+
+_SETTINGS = ("gazebo", "ros2_control", "transmission")
+
+
+def _subjects(settings: Element) -> set[str]:
+    """Return the names of the parts that settings are about."""
+    if settings.tag == "gazebo":
+        return {name} if (name := _name(settings, "reference")) else set()
+    return {_name(one, "name") for one in settings.content if isinstance(one, Element) and one.tag == "joint"}
+
+
 def _own_elements(content: list[Content]) -> Iterator[Element]:
     for one in content:
         if isinstance(one, Choice):
@@ -58,12 +116,8 @@ def _own_elements(content: list[Content]) -> Iterator[Element]:
 
 def _require_own(found: list[tuple[Element, Guards]], links: set[str], joints: set[str]) -> None:
     for one, _ in found:
-        if one.tag == "gazebo" and (reference := _name(one, "reference")) and reference not in links | joints:
+        if one.tag in _SETTINGS and not _subjects(one) <= links | joints:
             raise CannotTranslateError("it has settings for a part outside of it")
-        if one.tag in ("ros2_control", "transmission"):
-            inner = {_name(part, "name") for part in one.content if isinstance(part, Element) and part.tag == "joint"}
-            if inner - joints:
-                raise CannotTranslateError(f"its {one.tag} is about joints outside of it")
         if one.tag == "joint":
             for part in one.content:
                 if isinstance(part, Element) and part.tag == "mimic" and _name(part, "joint") not in joints:

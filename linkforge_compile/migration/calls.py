@@ -6,11 +6,11 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.migration.attachment import find_attachment
+from linkforge_compile.migration.attachment import find_attachment, outer_parts
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Called, Context, Evaluator, MacroCalls
 from linkforge_compile.migration.kept import kept_call
-from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value
+from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value, find_macro
 from linkforge_compile.migration.symbols import (
     MAP,
     UNKNOWN,
@@ -28,9 +28,10 @@ from linkforge_compile.migration.symbols import (
     kind_of,
     refer,
     sources_of,
+    symbols_in,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, walk
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, elements_in, split, walk
 from linkforge_compile.source.xml_tree import XmlElement
 
 
@@ -54,6 +55,8 @@ class Plan:
     """The macros that are called once."""
     fixed: dict[XmlElement, frozenset[str]] = field(default_factory=dict)
     """Parameters that have the same value in all calls, and are no parameters of the module."""
+    outer: dict[XmlElement, frozenset[XmlElement]] = field(default_factory=dict)
+    """What of a macro is about other parts, and so belongs to the file that uses it."""
 
 
 class Calls(MacroCalls):
@@ -79,7 +82,7 @@ class Calls(MacroCalls):
         name, values = element.tag.removeprefix("xacro:"), dict(element.values)
         if name == "call":
             name = evaluator.path_text(evaluator.text(values.pop("macro", ""), context))
-        macro, macros, symbols = _find(name, context)
+        macro, macros, symbols = find_macro(name, context.macros, context.symbols)
         if macro is None:
             raise UndefinedError(f"a call of the macro '{name}', which is not defined,")
         called = Called(macro, element, context)
@@ -105,7 +108,7 @@ class Calls(MacroCalls):
         is_part = macro.body in self._parts.get(context.file, ())
         if macro.body not in self._plan.modules or context.is_inside or is_part:
             return called.content
-        return [self._use(called, macros, evaluator)]
+        return self._used(called, macros, evaluator)
 
     def _bind(self, called: Called, values: dict[str, str], scope: Table[Property], evaluator: Evaluator) -> None:
         """Give the parameters of a macro their values in a scope."""
@@ -142,7 +145,8 @@ class Calls(MacroCalls):
 
     # Modules
 
-    def _use(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Use:
+    def _used(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> list[Content]:
+        """Return the use of a module, and what of the macro belongs to the file that uses it."""
         macro = called.macro
         module = self.modules.get(macro.body)
         if module is None:
@@ -150,9 +154,9 @@ class Calls(MacroCalls):
         use = Use(module.file, dict(called.arguments), called.element)
         for name, find in module.imports.items():
             use.arguments[name] = as_parts(find(called.context, evaluator)) or ("",)
-        use.inline = called.content
-        use.attachment = find_attachment(called.content, may_be_nested=True)
-        return use
+        use.inline, outer = split(called.content, self._plan.outer.get(macro.body, ()))
+        use.attachment = _mount_of(macro, use.inline)
+        return [use, *outer]
 
     def _module(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Module:
         macro, kinds = called.macro, self._plan.modules[called.macro.body]
@@ -164,7 +168,7 @@ class Calls(MacroCalls):
                 scope.entries[parameter] = Block(content=(block,))
                 continue
             if parameter in self._plan.fixed.get(macro.body, ()):
-                scope.entries[parameter] = Value(value_of(called.arguments[parameter]))
+                scope.entries[parameter] = Value(_own_value(parameter, value_of(called.arguments[parameter]), file))
                 continue
             default = macro.defaults.get(parameter, (None, None))[1]
             kind = kinds.get(parameter, UNKNOWN)
@@ -177,19 +181,23 @@ class Calls(MacroCalls):
         module = self.modules[macro.body] = Module(file, macro, context)
         self._by_file[file] = module
         self._callers.append((file, called.context))
-        attached = find_attachment(called.content, may_be_nested=True)
-        chain = [one for one in attached.calls if isinstance(one, Called)] if attached else []
+        outer = self._plan.outer.get(macro.body, frozenset())
+        inner, moved = split(called.content, outer)
+        attached = _mount_of(macro, inner)
+        ends = [*elements_in(moved), *([attached] if attached else [])]
+        chain = [one for end in ends for one in end.calls if isinstance(one, Called)]
         self._parts[file] = frozenset(one.macro.body for one in chain) - {macro.body}
         try:
-            file.content = evaluator.walk(macro.body.content, context)
+            file.content, _ = split(evaluator.walk(macro.body.content, context), outer)
             file.attachment = find_attachment(file.content)
             _require_known_blocks(file)
         except CannotTranslateError as error:
-            raise NoModuleError(macro.body, error.reason) from None
+            raise NoModuleError(macro.body, error.reason, outer=outer_parts(file.content)) from None
         except NotConstantError as error:
             if any(symbol.is_argument for symbol in error.symbols):
                 raise
-            raise no_module(file, error) from None
+            reason = no_module(file, error)
+            raise NoModuleError(macro.body, reason.reason, reason.fixed, outer_parts(file.content)) from None
         finally:
             self._callers.pop()
         return module
@@ -222,10 +230,9 @@ class Calls(MacroCalls):
         except NotConstantError:
             return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
         if isinstance(node, Reference) and node.symbol.role == "data":
-            symbol = Symbol(name, "data", node.symbol.value, known, MAP)
-            context.file.symbols.append(symbol)
-            top.entries[name] = Value(refer(symbol))
-            return refer(symbol)
+            own = _own_value(name, node, context.file)
+            top.entries[name] = Value(own)
+            return own
         if isinstance(known, dict | list):
             return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
         if source is not None and context.symbols.top.file is context.file:
@@ -292,12 +299,34 @@ def no_module(file: FileDraft, error: NotConstantError) -> NoModuleError:
     return NoModuleError(file.root, f"something in it depends on {error}", frozenset(fixed))
 
 
+def _own_value(name: str, node: ast.expr, file: FileDraft) -> ast.expr:
+    """Return a value that is the same everywhere as one of a file: data as its own, other values as literals."""
+    if not symbols_in(node):
+        return node
+    known = constant_of(node)
+    if not isinstance(node, Reference) or not isinstance(known, dict | list):
+        return constant(known)
+    same = (one for one in file.symbols if one.wish == name and one.role == node.symbol.role)
+    symbol = next(same, None)
+    if symbol is None:
+        symbol = Symbol(name, node.symbol.role, node.symbol.value, known, MAP, node.symbol.comment)
+        file.symbols.append(symbol)
+    return refer(symbol)
+
+
 def _require_known_blocks(file: FileDraft) -> None:
     """Refuse a module in which a block of a call is needed anywhere but as the origin of the attaching joint."""
     attached = file.attachment.content if file.attachment else []
     for one in walk(file.content):
         if isinstance(one, Element) and one.calls[:1] == ("block",) and one not in attached:
             raise CannotTranslateError("it inserts a block of its call")
+
+
+def _mount_of(macro: Macro, content: list[Content]) -> Element | None:
+    try:
+        return find_attachment(content, may_be_nested=True)
+    except CannotTranslateError as error:
+        raise NoModuleError(macro.body, error.reason, outer=outer_parts(content)) from None
 
 
 def _as_given(symbol: Symbol) -> Reference:
@@ -318,18 +347,3 @@ def _unquoted(text: str) -> str:
     if len(text) >= 2 and text[0] == text[-1] and text[0] in "'\"":
         return text[1:-1] if text[0] == '"' else text
     return text
-
-
-def _find(name: str, context: Context) -> tuple[Macro | None, Table[Macro], Table[Property]]:
-    found = context.macros.get(name)
-    if found is not None:
-        return found, context.macros, context.symbols
-    *spaces, last = name.split(".")
-    macros: Table[Macro] | None = context.macros
-    symbols: Table[Property] | None = context.symbols
-    for space in spaces:
-        macros = macros.namespace(space) if macros else None
-        symbols = symbols.namespace(space) if symbols else None
-    if not spaces or macros is None or symbols is None:
-        return None, context.macros, context.symbols
-    return macros.get(last), macros, symbols

@@ -128,8 +128,8 @@ class FileMaker:
             node = _block(tree, name) if tag == "gazebo" else entry.value if entry else None
             key = key or (entry.key if entry else None)
             found.append((outcomes, node if is_present else None))
-            # Beside the entry, it is a second element of that name.
-            raw.append((outcomes, _raw_element(tree, group.key) if is_present else None))
+            is_raw = is_present and (node is None or group.is_twofold(outcomes))
+            raw.append((outcomes, _raw_element(tree, group.key) if is_raw else None))
         if any(node is not None for _, node in found) and not self._keeps_raw:
             # What is raw for some outcomes only is no valid part then, such as hardware without a plugin.
             kept = [number for number, (_, node) in enumerate(found) if node is not None or raw[number][1] is None]

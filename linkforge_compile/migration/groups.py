@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkforge_compile.migration.conditions import Outcomes, atom_of, atoms_in, combinations, holds
-from linkforge_compile.migration.symbols import Parts, as_expression
+from linkforge_compile.migration.symbols import NotConstantError, Parts, as_expression, symbols_in
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
 from linkforge_compile.migration.written import Writer
 
@@ -37,6 +37,7 @@ class Placed:
     element: Element
 
     def exists(self, outcomes: Outcomes) -> bool:
+        """Whether all of its conditions are true."""
         return all(holds(guard, outcomes) for guard in self.guards)
 
 
@@ -65,6 +66,10 @@ class Group:
         tag = self.key[0]
         return any(one.exists(outcomes) for one in self.placed if tag in (one.element.tag, "robot"))
 
+    def is_twofold(self, outcomes: Outcomes) -> bool:
+        """Whether there are two elements of the name of the entry."""
+        return sum(one.exists(outcomes) for one in self.placed if one.element.tag == self.key[0]) > 1
+
     def in_context(self, outcomes: Outcomes) -> Outcomes:
         """Return these outcomes, or others if the entry would be missing, which others may refer to."""
         if self.is_present(outcomes) or self.key[0] not in ("link", "joint", "material"):
@@ -89,6 +94,8 @@ class Groups:
         }
         for one in placed:
             key = self._key(one, guards)
+            if key == REST and one.guards:
+                raise NotConstantError(frozenset().union(*map(symbols_in, one.guards)))
             group = self.by_key.setdefault(key, Group(key))
             group.add(one)
             self._group_of[one.element] = group

@@ -9,7 +9,7 @@ from itertools import chain, count
 from pathlib import Path
 from typing import TypedDict
 
-from linkforge_compile.migration.attachment import find_attachment
+from linkforge_compile.migration.attachment import find_attachment, outer_parts, repeated_parts
 from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import domain_of
 from linkforge_compile.migration.constants import constant_of
@@ -26,6 +26,7 @@ from linkforge_compile.migration.symbols import (
     CannotTranslateError,
     NoModuleError,
     NotConstantError,
+    Parts,
     Symbol,
     constant,
     is_literal,
@@ -36,7 +37,7 @@ from linkforge_compile.migration.symbols import (
     symbols_of,
     value_of,
 )
-from linkforge_compile.migration.template import Content, Element, FileDraft, Spec
+from linkforge_compile.migration.template import FileDraft, Spec, split
 from linkforge_compile.source.xml_tree import XmlElement
 
 _MOST_ROUNDS = 20
@@ -134,8 +135,9 @@ def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head
     first = Calls(Plan())
     Expander(sources, given, pinned, first).expand()
     fixed: dict[XmlElement, frozenset[str]] = {}
+    outer: dict[XmlElement, frozenset[XmlElement]] = {}
     while True:
-        plan = _plan(first.called, inline)
+        plan = _plan(first.called, inline, outer)
         plan.fixed = fixed
         calls = Calls(plan)
         expander = Expander(sources, given, pinned, calls)
@@ -144,22 +146,34 @@ def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head
             return _written(robot, expander, calls, settled, head)
         except NoModuleError as error:
             body = error.body
-            same = _constant(error.fixed - fixed.get(body, frozenset()), body, first.called)
-            if same:
-                fixed[body] = fixed.get(body, frozenset()) | same
+            known = fixed.get(body, frozenset())
+            if same := _constant(error.fixed - known, body, first.called):
+                fixed[body] = known | same
+            elif not error.outer <= plan.outer[body]:
+                outer[body] = plan.outer[body] | error.outer
+            elif same := _constant(_parameters(body, first.called) - known, body, first.called):
+                fixed[body] = known | same
             else:
                 inline[body] = error.reason
 
 
 def _constant(names: Iterable[str], body: XmlElement, called: list[Called]) -> frozenset[str]:
-    """Return the parameters of a macro that have one value in all calls, which depends on no name."""
+    """Return the parameters of a macro that have one value in all calls, which depends on no name but one of data."""
     calls = [one for one in called if one.macro.body is body]
     values = {name: [one.arguments.get(name) for one in calls] for name in names}
     return frozenset(
         name
         for name, found in values.items()
-        if all(one is not None and not symbols_of(one) and same_text(one, found[0] or ()) for one in found)
+        if all(one is not None and _is_constant(one) and same_text(one, found[0] or ()) for one in found)
     )
+
+
+def _is_constant(parts: Parts) -> bool:
+    return all(symbol.constant is not UNSET and not symbols_of(symbol.value or ()) for symbol in symbols_of(parts))
+
+
+def _parameters(body: XmlElement, called: list[Called]) -> frozenset[str]:
+    return frozenset(name for one in called if one.macro.body is body for name in one.arguments)
 
 
 def _body_of(module: FileDraft) -> XmlElement:
@@ -167,7 +181,9 @@ def _body_of(module: FileDraft) -> XmlElement:
     return module.root
 
 
-def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
+def _plan(
+    called: list[Called], inline: dict[XmlElement, str], outer: Mapping[XmlElement, frozenset[XmlElement]]
+) -> Plan:
     """Return which macros become modules: those of which each call is one tree of links."""
     by_body: dict[XmlElement, list[Called]] = {}
     for one in called:
@@ -178,22 +194,21 @@ def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
             continue
         try:
             if any(one.context.is_inside for one in calls):
-                raise CannotTranslateError("it is a part of elements")
-            attached = {_attachment(one.content) is not None for one in calls}
-            if len(attached) > 1:
-                raise CannotTranslateError("some of its calls attach it to a link and others do not")
+                raise CannotTranslateError("it makes a part of an element")
+            moved = outer.get(body, frozenset()).union(*(outer_parts(one.content) for one in calls))
+            moved |= repeated_parts([one.content for one in calls])
+            joints = [find_attachment(split(one.content, moved)[0]) for one in calls]
+            if None in joints:  # for some calls no joint is left that could be the mount
+                moved |= {joint.origin for joint in joints if joint and joint.origin}
+            plan.outer[body] = moved
         except CannotTranslateError as error:
             inline[body] = error.reason
             continue
+        except NotConstantError as error:
+            inline[body] = f"its joints depend on {error}"
+            continue
         plan.modules[body] = _kinds(calls)
     return plan
-
-
-def _attachment(content: list[Content]) -> Element | None:
-    try:
-        return find_attachment(content)
-    except NotConstantError:
-        raise CannotTranslateError("the joint that attaches it depends on a condition") from None
 
 
 def _kinds(calls: list[Called]) -> dict[str, str]:

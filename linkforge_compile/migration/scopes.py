@@ -115,3 +115,21 @@ class Table(Generic[B]):
         while around is not None and around.is_namespace and not self.is_namespace:
             around = around.parent
         return around
+
+
+def find_macro(
+    name: str, macros: Table[Macro], symbols: Table[Property]
+) -> tuple[Macro | None, Table[Macro], Table[Property]]:
+    """Return a macro and the scopes in which its body is evaluated: those of its namespace, if its name has one."""
+    found = macros.get(name)
+    if found is not None:
+        return found, macros, symbols
+    *spaces, last = name.split(".")
+    inner: Table[Macro] | None = macros
+    names: Table[Property] | None = symbols
+    for space in spaces:
+        inner = inner.namespace(space) if inner else None
+        names = names.namespace(space) if names else None
+    if not spaces or inner is None or names is None:
+        return None, macros, symbols
+    return inner.get(last), inner, names

@@ -42,11 +42,18 @@ class UndefinedError(CannotTranslateError):
 class NoModuleError(Exception):
     """A macro cannot be a module; `body` is its element.
 
-    It can be one if the parameters `fixed` are none, because they have the same value in all calls.
+    It can be one if the parameters `fixed` are none, because they have the same value in all calls, or if the file that
+    uses it has the elements `outer`.
     """
 
-    def __init__(self, body: XmlElement, reason: str, fixed: frozenset[str] = frozenset()) -> None:
-        self.body, self.reason, self.fixed = body, reason, fixed
+    def __init__(
+        self,
+        body: XmlElement,
+        reason: str,
+        fixed: frozenset[str] = frozenset(),
+        outer: frozenset[XmlElement] = frozenset(),
+    ) -> None:
+        self.body, self.reason, self.fixed, self.outer = body, reason, fixed, outer
         super().__init__(reason)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
@@ -121,6 +121,22 @@ def elements_in(content: list[Content]) -> Iterator[Element]:
             yield from elements_in(one.content)
         elif isinstance(one, Element):
             yield one
+
+
+def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list[Content], list[Content]]:
+    """Return a content without the elements that certain ones of the xacro make, and these with their conditions."""
+    inner: list[Content] = []
+    outer: list[Content] = []
+    for one in content:
+        if isinstance(one, Choice):
+            for made, part in zip((inner, outer), split(one.content, origins), strict=True):
+                if part:
+                    made.append(Choice(one.test, part, one.origin))
+        elif isinstance(one, Element) and one.origin in origins:
+            outer.append(one)
+        else:
+            inner.append(one)
+    return inner, outer
 
 
 @dataclass

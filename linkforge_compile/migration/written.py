@@ -13,6 +13,7 @@ from linkforge_compile.migration.logic import folded
 from linkforge_compile.migration.placeholders import Placeholders, key_of
 from linkforge_compile.migration.symbols import (
     BOOLEAN,
+    MAP,
     NUMBER,
     TEXT,
     UNKNOWN,
@@ -134,6 +135,8 @@ class Writer:
             return self._number((node,), dimension)
         if isinstance(known, str) and not isinstance(node, Reference):
             return known
+        if unknown := _data_under(node):
+            raise NotConstantError(frozenset((unknown,)))  # its text is no list in a spec
         if isinstance(node, Reference):
             if node.symbol.value and len(node.symbol.value) > 1 and node.symbol.role == "variable":
                 count = len(tokens_of(node.symbol.value))
@@ -205,6 +208,20 @@ def _bare(node: ast.expr) -> list[Reference]:
         case ast.UnaryOp(operand=Reference() as inner):
             return [inner]
     return []
+
+
+def _data_under(node: ast.expr) -> Symbol | None:
+    """Return the data of which a vector is a part, which there are texts."""
+    match node:
+        case ast.Attribute(value=whole) | ast.Subscript(value=whole):
+            while isinstance(whole, ast.Attribute | ast.Subscript):
+                whole = whole.value
+            is_data = isinstance(whole, Reference) and whole.symbol.kind in (MAP, UNKNOWN)
+            return whole.symbol if is_data and isinstance(whole, Reference) else None
+        case Reference(symbol=symbol) if symbol.role == "variable" and symbol.value and len(symbol.value) == 1:
+            value = symbol.value[0]
+            return _data_under(value) if isinstance(value, ast.expr) else None
+    return None
 
 
 def mark_vector(symbol: Symbol, count: int) -> None:

@@ -24,7 +24,7 @@ def test_the_command_writes_specs_and_prints_a_report(tmp_path: Path):
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 0
     assert "proof       2 of 2 combinations of its arguments are the same robot\n" in ran.stdout
-    assert "macro 'paint' is no module: it has no links of its own" in ran.stderr  # LF8041
+    assert "macro 'paint' is no module: it has no links and joints" in ran.stderr  # LF8041
     text = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert text.startswith("# linkforge migrate ../robot.xacro -o .\n")
     assert [path.name for path in (tmp_path / "specs").iterdir()] == ["robot.robot.yaml"]
