@@ -7,10 +7,11 @@ import copy
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeAlias
 
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Context, Evaluator
-from linkforge_compile.migration.logic import as_condition, negated
+from linkforge_compile.migration.logic import as_condition, combined, negated
 from linkforge_compile.migration.scopes import Block, Lazy, Macro, Property, Table, Value
 from linkforge_compile.migration.symbols import (
     CannotTranslateError,
@@ -27,6 +28,9 @@ from linkforge_compile.migration.template import Choice, Comment, Content, Eleme
 from linkforge_compile.source.xml_tree import XmlComment, XmlContent, XmlElement
 
 _MOST_DEEP = 60
+
+Journal: TypeAlias = "list[tuple[Table[Property], str, Property | None]]"
+"""What was set, with what was there before."""
 
 
 class Expander(Evaluator):
@@ -197,17 +201,16 @@ class Expander(Evaluator):
             content = self.walk(element.content, context)
         except UndefinedError:
             content = []  # authors refuse a value by calling a macro that does not exist
-        self._merge_definitions(properties[marks[0] :], test, context)
+        # A condition around this one sees what they were before.
+        properties[marks[0] :] = self._merge_definitions(properties[marks[0] :], test, context)
         for table, name, old in macros[marks[1] :]:
             if old is not None and old.body is not table.entries[name].body:
                 raise NotConstantError(symbols_in(test))
-        del properties[marks[0] :], macros[marks[1] :]
+        del macros[marks[1] :]
         return [Choice(test, content, element)] if content else []
 
-    def _merge_definitions(
-        self, journal: list[tuple[Table[Property], str, Property | None]], test: ast.expr, context: Context
-    ) -> None:
-        """Give what a condition defines the value that it has with and without the condition."""
+    def _merge_definitions(self, journal: Journal, test: ast.expr, context: Context) -> Journal:
+        """Give what a condition defines the value that it has with and without it, and return what was before."""
         first: dict[tuple[int, str], tuple[Table[Property], Property | None]] = {}
         for table, name, old in journal:
             first.setdefault((id(table), name), (table, old))
@@ -217,6 +220,7 @@ class Expander(Evaluator):
                 raise NotConstantError(symbols_in(test))
             if table in context.symbols.chain():  # else it is of a macro whose call is over
                 self._merge_definition(table, name, (new, old), test, context)
+        return [(table, name, old) for (_, name), (table, old) in first.items()]
 
     def _merge_definition(
         self,
@@ -233,7 +237,8 @@ class Expander(Evaluator):
         other = None if old is None else self.resolved(table, name, old, context)
         table.file = file
         if other is None:
-            table.entries[name] = Value(node, test)
+            inner = [new.test] if isinstance(new, Value) and new.test is not None else []
+            table.entries[name] = Value(node, combined(ast.And(), [test, *inner]) if inner else test)
             return
         known = old.test if isinstance(old, Value) else None
         if known is None or ast.dump(negated(known)) != ast.dump(test):

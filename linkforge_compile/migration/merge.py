@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from linkforge_compile.importers.spec_draft import is_same
 from linkforge_compile.migration.conditions import Outcomes
 from linkforge_compile.migration.logic import negated
 from linkforge_compile.migration.placeholders import PLACEHOLDER, Placeholders
-from linkforge_compile.migration.symbols import as_expression, constant
+from linkforge_compile.migration.symbols import Part, Parts, as_expression, constant
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 
 _SHAPES = frozenset(("box", "cylinder", "sphere", "capsule", "mesh"))
 _LISTS = frozenset(("visual", "collision", "gazebo", "extra"))
 """Keys of one entry or a list of them."""
 
+_PREFIX = "$(prefix)"
 _PLAIN = frozenset(("parameters", "properties"))
 """Keys of values for plugins, where anything may have a condition."""
 
@@ -86,8 +87,10 @@ class Merger:
     def _expression(self, node: YamlScalar) -> ast.expr:
         if not PLACEHOLDER.search(node.text):
             is_number = type(node.value) in (int, float)
-            return constant(node.value if is_number or isinstance(node.value, bool) else node.text)
-        return as_expression(self._placeholders.parts(node.text))
+            if is_number or isinstance(node.value, bool):
+                return constant(node.value)
+            return as_expression(tuple(_with_prefix((node.text,))))
+        return as_expression(tuple(_with_prefix(self._placeholders.parts(node.text))))
 
     def _only_if(self, test: ast.expr, node: YamlNode, key: str) -> YamlNode:
         """Return a node that exists only if a test is true."""
@@ -180,6 +183,19 @@ class Merger:
             except CannotMergeError:
                 made += [self._long(test, one), self._long(negated(test), other)]
         return made[0] if len(made) == 1 and key in _LISTS else YamlList(tuple(made), ones[0].span)
+
+
+def _with_prefix(parts: Parts) -> Iterator[Part]:
+    """Yield the pieces of a text in which `$(prefix)`, which the reader of URDF writes, is an expression."""
+    for part in parts:
+        if not isinstance(part, str):
+            yield part
+            continue
+        for number, piece in enumerate(part.split(_PREFIX)):
+            if number:
+                yield ast.Name(id="prefix", ctx=ast.Load())
+            if piece:
+                yield piece
 
 
 def _items(node: YamlNode | None) -> tuple[YamlNode, ...]:

@@ -215,6 +215,8 @@ def kind_of(node: ast.expr) -> str:
             return TEXT if name in ("str", "join", "path") else NUMBER
         case ast.Name(id="pi"):
             return NUMBER
+        case ast.Name(id="prefix"):
+            return TEXT
     return UNKNOWN
 
 

@@ -135,3 +135,36 @@ def test_the_command_that_makes_the_specs_names_the_packages_that_they_need(tmp_
     proved = Migrator(main, {}, tmp_path / "specs", Settings((), packages).loader(main), Diagnostics()).run()
     text = proved.files["robot.robot.yaml"]
     assert text.startswith("# linkforge migrate ../robot.xacro --package arm_description=../arm_description -o .\n")
+
+
+def test_a_property_that_conditions_in_conditions_define_has_the_value_of_all_of_them(tmp_path: Path):
+    choice = """
+<xacro:{outer} value="$(arg gpu)">
+  <xacro:if value="${{'$(arg engine)' == 'classic'}}"><xacro:property name="ray" value="{classic}"/></xacro:if>
+  <xacro:if value="${{'$(arg engine)' == 'harmonic'}}"><xacro:property name="ray" value="{harmonic}"/></xacro:if>
+</xacro:{outer}>
+"""
+    text = f"""
+<xacro:arg name="gpu" default="true"/>
+<xacro:arg name="engine" default="classic"/>
+{choice.format(outer="if", classic="gpu_ray", harmonic="gpu_lidar")}
+{choice.format(outer="unless", classic="ray", harmonic="lidar")}
+{LINK}
+<gazebo reference="base"><sensor name="s" type="${{ray}}"/></gazebo>
+"""
+    assert len(migrated(tmp_path, text).proved.comparisons) == 4
+
+
+def test_alternatives_of_names_in_settings_take_the_prefix_of_a_module(tmp_path: Path):
+    text = f"""
+<xacro:arg name="engine" default="classic"/>
+{LINK}
+<xacro:if value="${{'$(arg engine)' == 'classic'}}">
+  <gazebo reference="base"><sensor name="ray_of_classic" type="ray"/></gazebo>
+</xacro:if>
+<xacro:if value="${{'$(arg engine)' == 'harmonic'}}">
+  <gazebo reference="base"><sensor name="ray_of_harmonic" type="ray"/></gazebo>
+</xacro:if>
+"""
+    robot = migrated(tmp_path, text).robot
+    assert "$(prefix + 'ray_of_classic' if engine == 'classic' else prefix + 'ray_of_harmonic')" in robot
