@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from linkforge_compile.migration.placeholders import key_of
 from linkforge_compile.migration.symbols import CannotTranslateError, NotConstantError, symbols_in
-from linkforge_compile.migration.template import Choice, Content, Element, Use
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, walk
 from linkforge_compile.migration.written import canonical
 from linkforge_compile.source.xml_tree import XmlElement
 
@@ -144,3 +144,11 @@ def _name(element: Element, attribute: str) -> str:
 def _end(joint: Element, tag: str) -> str:
     found = next((one for one in joint.content if isinstance(one, Element) and one.tag == tag), None)
     return _name(found, "link") if found else ""
+
+
+def require_known_blocks(file: FileDraft) -> None:
+    """Refuse a module in which a block of a call is needed anywhere but as the origin of the attaching joint."""
+    attached = file.attachment.content if file.attachment else []
+    for one in walk(file.content):
+        if isinstance(one, Element) and one.calls[:1] == ("block",) and one not in attached:
+            raise CannotTranslateError("it inserts a block of its call")

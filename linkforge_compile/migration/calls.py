@@ -6,11 +6,11 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.migration.attachment import find_attachment, outer_parts
+from linkforge_compile.migration.attachment import find_attachment, outer_parts, require_known_blocks
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Called, Context, Evaluator, MacroCalls
 from linkforge_compile.migration.kept import kept_call
-from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value, find_macro
+from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value, find_macro, unquoted
 from linkforge_compile.migration.symbols import (
     MAP,
     UNKNOWN,
@@ -31,7 +31,7 @@ from linkforge_compile.migration.symbols import (
     symbols_in,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, elements_in, split, walk
+from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, elements_in, split
 from linkforge_compile.source.xml_tree import XmlElement
 
 
@@ -70,8 +70,6 @@ class Calls(MacroCalls):
         self.kept: dict[XmlElement, str] = {}
         """Why macros stay macros of their xacro, by their bodies."""
         self._by_file: dict[FileDraft, Module] = {}
-        self._parts: dict[FileDraft, frozenset[XmlElement]] = {}
-        """The macros that are written in place in a module, because the joint that attaches it is in them."""
         self._callers: list[tuple[FileDraft, Context]] = []
 
     def define(self, macro: Macro) -> None:
@@ -105,8 +103,7 @@ class Calls(MacroCalls):
             self.kept[macro.body] = error.reason
             called.content = [kept]
             return called.content
-        is_part = macro.body in self._parts.get(context.file, ())
-        if macro.body not in self._plan.modules or context.is_inside or is_part:
+        if macro.body not in self._plan.modules or context.is_inside:
             return called.content
         return self._used(called, macros, evaluator)
 
@@ -141,7 +138,7 @@ class Calls(MacroCalls):
                 return as_parts(node) or ("",)
         if default is None and parameter not in macro.defaults:
             raise CannotTranslateError(f"a call of '{macro.name}' without '{parameter}'")
-        return evaluator.text(_unquoted(default or ""), context)
+        return evaluator.text(unquoted(default or ""), context)
 
     # Modules
 
@@ -159,38 +156,20 @@ class Calls(MacroCalls):
         return [use, *outer]
 
     def _module(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> Module:
-        macro, kinds = called.macro, self._plan.modules[called.macro.body]
+        macro = called.macro
         file = FileDraft(macro.name, root=macro.body, comment=macro.comment, is_module=True, stem=macro.name)
         scope: Table[Property] = Table(file=file)
-        for parameter in macro.parameters:
-            if parameter.startswith("*"):
-                block = Element("origin", {}, [], calls=("block", parameter))
-                scope.entries[parameter] = Block(content=(block,))
-                continue
-            if parameter in self._plan.fixed.get(macro.body, ()):
-                scope.entries[parameter] = Value(_own_value(parameter, value_of(called.arguments[parameter]), file))
-                continue
-            default = macro.defaults.get(parameter, (None, None))[1]
-            kind = kinds.get(parameter, UNKNOWN)
-            symbol = Symbol(parameter, "parameter", kind=kind)
-            if default is not None and "$" not in default:
-                symbol.value = as_parts(value_of((_unquoted(default),) if default else ("",))) or ("",)
-            file.symbols.append(symbol)
-            scope.entries[parameter] = Value(refer(symbol))
+        scope.entries |= self._parameters(called, file)
         context = Context(file, called.context.folder, Table(macros), scope, (called,))
         module = self.modules[macro.body] = Module(file, macro, context)
         self._by_file[file] = module
         self._callers.append((file, called.context))
         outer = self._plan.outer.get(macro.body, frozenset())
-        inner, moved = split(called.content, outer)
-        attached = _mount_of(macro, inner)
-        ends = [*elements_in(moved), *([attached] if attached else [])]
-        chain = [one for end in ends for one in end.calls if isinstance(one, Called)]
-        self._parts[file] = frozenset(one.macro.body for one in chain) - {macro.body}
+        self._require_own_ends(called, outer)
         try:
             file.content, _ = split(evaluator.walk(macro.body.content, context), outer)
             file.attachment = find_attachment(file.content)
-            _require_known_blocks(file)
+            require_known_blocks(file)
         except CannotTranslateError as error:
             raise NoModuleError(macro.body, error.reason, outer=outer_parts(file.content)) from None
         except NotConstantError as error:
@@ -201,6 +180,38 @@ class Calls(MacroCalls):
         finally:
             self._callers.pop()
         return module
+
+    def _parameters(self, called: Called, file: FileDraft) -> dict[str, Property]:
+        """Return what the parameters of a macro are in its module, and declare those that it has as well."""
+        macro, kinds = called.macro, self._plan.modules[called.macro.body]
+        entries: dict[str, Property] = {}
+        for parameter in macro.parameters:
+            if parameter.startswith("*"):
+                block = Element("origin", {}, [], calls=("block", parameter))
+                entries[parameter] = Block(content=(block,))
+                continue
+            if parameter in self._plan.fixed.get(macro.body, ()):
+                entries[parameter] = Value(_own_value(parameter, value_of(called.arguments[parameter]), file))
+                continue
+            default = macro.defaults.get(parameter, (None, None))[1]
+            kind = kinds.get(parameter, UNKNOWN)
+            symbol = Symbol(parameter, "parameter", kind=kind)
+            if default is not None and "$" not in default:
+                symbol.value = as_parts(value_of((unquoted(default),) if default else ("",))) or ("",)
+            file.symbols.append(symbol)
+            entries[parameter] = Value(refer(symbol))
+        return entries
+
+    def _require_own_ends(self, called: Called, outer: frozenset[XmlElement]) -> None:
+        """Refuse a module in this one that has the joint of this one, or what this one leaves to its user."""
+        inner, moved = split(called.content, outer)
+        attached = _mount_of(called.macro, inner)
+        for end in (*elements_in(moved), *([attached] if attached else [])):
+            for part in end.calls[len(called.context.calls) + 1 :]:
+                body = part.macro.body if isinstance(part, Called) else None
+                if body in self._plan.modules and end.origin not in self._plan.outer.get(body, ()):
+                    reason = "the joint that attaches it is that of the macro around it"
+                    raise NoModuleError(body, reason, outer=frozenset((end.origin,)) if end.origin else frozenset())
 
     def _caller(self, context: Context) -> Context | None:
         return next((caller for file, caller in reversed(self._callers) if file is context.file), None)
@@ -314,14 +325,6 @@ def _own_value(name: str, node: ast.expr, file: FileDraft) -> ast.expr:
     return refer(symbol)
 
 
-def _require_known_blocks(file: FileDraft) -> None:
-    """Refuse a module in which a block of a call is needed anywhere but as the origin of the attaching joint."""
-    attached = file.attachment.content if file.attachment else []
-    for one in walk(file.content):
-        if isinstance(one, Element) and one.calls[:1] == ("block",) and one not in attached:
-            raise CannotTranslateError("it inserts a block of its call")
-
-
 def _mount_of(macro: Macro, content: list[Content]) -> Element | None:
     try:
         return find_attachment(content, may_be_nested=True)
@@ -341,9 +344,3 @@ def _looked_up(name: str, context: Context, evaluator: Evaluator) -> ast.expr:
     if node is None:
         raise CannotTranslateError(f"the property '{name}', which is not defined,")
     return node
-
-
-def _unquoted(text: str) -> str:
-    if len(text) >= 2 and text[0] == text[-1] and text[0] in "'\"":
-        return text[1:-1] if text[0] == '"' else text
-    return text

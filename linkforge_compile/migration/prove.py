@@ -12,7 +12,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.importing import XACRO_KEPT
 from linkforge_compile.load import Loader
-from linkforge_compile.migration.combinations import combinations_of
+from linkforge_compile.migration.combinations import Arguments, combinations_of
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Migration, Settled, migrate, stem_of
@@ -22,6 +22,7 @@ from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import CannotTranslateError
 from linkforge_compile.pipeline import parameters_of
 from linkforge_compile.source.characters import on_one_line
+from linkforge_compile.source.xml_tree import XmlElement
 
 _MOST_COMPILED = 8
 """For how many combinations of arguments an inertia is compared with that of the shapes."""
@@ -73,13 +74,17 @@ class Migrator:
                 found = self.prove(other, prover)
                 if _failures(found) < _failures(comparisons):
                     settled, migration, comparisons = Settled(keeps_raw=True), other, found
-        for body in list(migration.modules):
+        for body in _suspects(migration, comparisons):
             if _failures(comparisons) == 0:
                 break
             reason = f"as a module it is another robot, {_first_failure(comparisons)}"
             tried = replace(settled, inline={**settled.inline, body: reason})
             other = self._migrated(tried)
             if isinstance(other, CannotTranslateError):
+                continue
+            # Most attempts mend nothing, which one of the failures tells.
+            failed = next(one.arguments for one in comparisons if not (one.is_equal or one.refused))
+            if _failures(self.prove(other, prover, [failed])):
                 continue
             found = self.prove(other, prover)
             if _failures(found) < _failures(comparisons):
@@ -149,10 +154,14 @@ class Migrator:
         command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", ".")
         return f"# {on_one_line(shlex.join(command))}\n\n"
 
-    def prove(self, migration: Migration, prover: Prover) -> list[Comparison]:
-        """Compare the specs, written into a temporary folder beside their own, for all combinations."""
+    def prove(
+        self, migration: Migration, prover: Prover, combinations: Sequence[Arguments] | None = None
+    ) -> list[Comparison]:
+        """Compare the specs, written into a temporary folder beside their own, for all combinations or some."""
+        if combinations is None:
+            combinations = combinations_of(migration.domains)
         with self._in_files(migration.files) as folder:
-            return prover.compare(folder / migration.main, migration.names, combinations_of(migration.domains))
+            return prover.compare(folder / migration.main, migration.names, combinations)
 
     def _kept(self, error: CannotTranslateError, prover: Prover) -> Proved:
         """Return a spec that uses the xacro as it is, with the arguments as parameters."""
@@ -173,6 +182,13 @@ class Migrator:
 def _first_failure(comparisons: Sequence[Comparison]) -> str:
     failed = next(one for one in comparisons if not (one.is_equal or one.refused))
     return failed.fault or failed.differences[0]
+
+
+def _suspects(migration: Migration, comparisons: Sequence[Comparison]) -> list[XmlElement]:
+    """Return the modules, those first whose files or names the failures are about."""
+    texts = "\n".join(text for one in comparisons for text in (one.fault or "", *one.differences))
+    files = migration.modules
+    return sorted(files, key=lambda body: files[body].stem not in texts)
 
 
 def _failures(comparisons: Sequence[Comparison]) -> int:

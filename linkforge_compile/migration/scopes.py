@@ -133,3 +133,10 @@ def find_macro(
     if not spaces or inner is None or names is None:
         return None, macros, symbols
     return inner.get(last), inner, names
+
+
+def unquoted(text: str) -> str:
+    """Return the default of a parameter without the double quotes around it."""
+    if len(text) >= 2 and text[0] == text[-1] and text[0] in "'\"":
+        return text[1:-1] if text[0] == '"' else text
+    return text

@@ -8,7 +8,7 @@ LINK = '<link name="${name}"><visual><geometry><sphere radius="0.1"/></geometry>
 JOINT = '<joint name="${name}_joint" type="fixed"><parent link="${parent}"/><child link="${name}"/></joint>'
 
 
-def test_a_macro_whose_joint_is_in_a_macro_of_it_is_a_module_with_that_in_place(tmp_path: Path):
+def test_a_macro_whose_joint_is_in_a_macro_of_it_has_the_joint_and_uses_that_as_a_module(tmp_path: Path):
     made = migrated(
         tmp_path,
         f"""
@@ -23,7 +23,10 @@ def test_a_macro_whose_joint_is_in_a_macro_of_it_is_a_module_with_that_in_place(
         """,
     )
     assert sorted(made.files) == ["arm.robot.yaml", "part.robot.yaml", "robot.robot.yaml"]
-    assert "  $(base_name)_upper_joint: {type: fixed, child: $(base_name)_upper}" in made.files["arm.robot.yaml"]
+    assert (
+        "mount:\n  $(base_name)_upper_joint: {type: fixed, child: $(base_name)_upper}" in made.files["arm.robot.yaml"]
+    )
+    assert "use: part.robot.yaml" in made.files["arm.robot.yaml"]
 
 
 def test_a_module_uses_the_modules_of_its_macros(tmp_path: Path):
