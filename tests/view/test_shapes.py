@@ -176,6 +176,12 @@ def test_a_mesh_that_cannot_be_read_is_listed(show_link: Callable[..., Any]):
     assert "m.gltf is not shown: " in tab.locator(".problems").text_content()
 
 
+def test_half_of_an_stl_is_listed_as_such(show_link: Callable[..., Any]):
+    whole = content(block(1, 1, 1), "stl")
+    tab = show_link("{visual: {mesh: m.stl}}", {"m.stl": whole[:300]}, {**FRONT, "panels": True})
+    assert "m.stl is not shown: the file ends before its data does" in tab.locator(".problems").text_content()
+
+
 def test_a_texture_that_is_missing_leaves_the_mesh(show_link: Callable[..., Any]):
     files = {"m.obj": OBJ.encode(), "m.mtl": TEXTURED}
     assert min(middle(show_link("{visual: {mesh: m.obj}}", files))) > 150

@@ -83,7 +83,9 @@ export class Shapes {
     try {
       return await readMesh(this.files, digest);
     } catch (error) {
-      this.note(digest, error instanceof Error ? error.message : "it cannot be read");
+      // Readers of binary files know of an end only by the range of their view.
+      if (error instanceof RangeError) this.note(digest, "the file ends before its data does");
+      else this.note(digest, error instanceof Error ? error.message : "it cannot be read");
       return null;
     }
   }
