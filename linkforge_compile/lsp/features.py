@@ -106,7 +106,7 @@ def _add_synchronization(server: SpecServer) -> None:
 
 def _add_text_features(server: SpecServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=TRIGGERS))
-    async def _complete(params: types.CompletionParams) -> list[types.CompletionItem] | None:
+    async def _complete(params: types.CompletionParams) -> types.CompletionList | None:
         at, client = params.position, Client.of(server.client_capabilities)
         return await server.answer_at_once(
             params.text_document.uri, lambda document, settings: complete(document, at, settings, client)

@@ -5,7 +5,12 @@ from pathlib import Path
 
 import pytest
 from lsprotocol import types
+from pygls.workspace import PositionCodec
 
+from linkforge_compile.analysis import analyse_path
+from linkforge_compile.lsp.completion import Client, complete
+from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.lsp.workspace import Workspace
 from tests.lsp.completion_cases import CASES, EXAMPLES, Case
 from tests.lsp.editor import Editor, split_at_cursor
 
@@ -22,8 +27,8 @@ def completions(editor: Editor, file: Path, text: str, position: types.Position)
     document = editor.open(file, text)
     params = types.CompletionParams(document, position)
     found = editor.ask(lambda client: client.text_document_completion_async(params))
-    assert isinstance(found, list)
-    return sorted(found, key=lambda item: item.sort_text or item.label)
+    assert isinstance(found, types.CompletionList)
+    return sorted(found.items, key=lambda item: item.sort_text or item.label)
 
 
 def accept(item: types.CompletionItem, text: str) -> str:
@@ -173,7 +178,7 @@ def test_a_position_beyond_the_text_and_a_closed_document_end_nothing(editor: Ed
     file = tmp_path / "arm.robot.yaml"
     document = editor.open(file, "linkforge: 1\n")
     beyond = types.CompletionParams(document, types.Position(1000, 1000))
-    assert isinstance(editor.ask(lambda client: client.text_document_completion_async(beyond)), list)
+    assert isinstance(editor.ask(lambda client: client.text_document_completion_async(beyond)), types.CompletionList)
     editor.close(file)
     assert editor.ask(lambda client: client.text_document_completion_async(beyond)) is None
 
@@ -259,3 +264,16 @@ def test_arguments_have_no_example_of_another_module(editor: Editor, tmp_path: P
     editor.open(file, text.replace("¦", ""))
     editor.diagnostics(file)
     assert labels_at(editor, file, text) == ["grip"]
+
+
+def test_a_list_is_incomplete_until_the_first_analysis(tmp_path: Path):
+    path, text = tmp_path / "arm.robot.yaml", "linkforge: 1\nname: arm\nlinks: {base: {}}\n"
+    specs = Workspace()
+    specs.put(path, 1, text)
+    for is_incomplete in (True, False):
+        document = specs.document(path, Columns(PositionCodec()))
+        assert document is not None
+        found = complete(document, types.Position(3, 0), specs.settings(), Client())
+        assert found.is_incomplete is is_incomplete
+        assert "joints" in [item.label for item in found.items]
+        specs.keep(path, analyse_path(path, specs.begin(path)))

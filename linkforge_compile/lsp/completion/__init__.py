@@ -26,15 +26,15 @@ TRIGGERS = (" ", "(", "'", '"', "/", ".", "{", "[")
 """The characters after which an editor asks for completions, besides those of words."""
 
 
-def complete(
-    document: Document, position: types.Position, settings: Settings, client: Client
-) -> list[types.CompletionItem]:
-    """Return what may be written at a position; `settings` are those that specs are analysed with."""
+def complete(document: Document, position: types.Position, settings: Settings, client: Client) -> types.CompletionList:
+    """Return what may be written at a position; `settings` are those that specs are analysed with.
+
+    Before the first analysis the list is incomplete: an editor asks again for it with the next character.
+    """
     cursor = find_cursor(document.file, document.columns.place(document.file, position))
-    if cursor is None:
-        return []
-    context = Context(document, cursor, position, settings)
-    return [to_item(offer, order, context, client) for order, offer in enumerate(_offers(context))]
+    context = Context(document, cursor, position, settings) if cursor else None
+    items = [to_item(offer, order, context, client) for order, offer in enumerate(_offers(context))] if context else []
+    return types.CompletionList(is_incomplete=document.analysis is None, items=items)
 
 
 def _offers(context: Context) -> list[Offer]:
