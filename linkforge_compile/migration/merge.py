@@ -20,6 +20,8 @@ _PREFIX = "$(prefix)"
 _PLAIN = frozenset(("parameters", "properties"))
 """Keys of values for plugins, where anything may have a condition."""
 
+_ZERO_UNLESS_SET = ("xyz", "rpy")
+
 _BY_NAME = frozenset(("joints", "sensors", "gpios", "actuators", "plugins", "command_interfaces", "state_interfaces"))
 """Maps by name, whose entries have conditions and which have none."""
 
@@ -61,6 +63,8 @@ class Merger:
     ) -> YamlNode | None:
         if is_same(one, other):
             return one if one is not None else other
+        if key in _ZERO_UNLESS_SET and (one is None or other is None):
+            one, other = (_zeros(other) if one is None else one), (_zeros(one) if other is None else other)
         if one is None and other is not None:
             return self._only_if(negated(test), other, "" if is_plain else key)
         if other is None and one is not None:
@@ -202,6 +206,13 @@ def _items(node: YamlNode | None) -> tuple[YamlNode, ...]:
     if isinstance(node, YamlList):
         return node.items
     return () if node is None else (node,)
+
+
+def _zeros(like: YamlNode | None) -> YamlNode | None:
+    """Return a list of zeros that is as long as another one."""
+    if not isinstance(like, YamlList):
+        return None
+    return YamlList(tuple(YamlScalar("0", 0, item.span) for item in like), like.span)
 
 
 def _long_origin(node: YamlNode | None) -> YamlMap:

@@ -168,3 +168,18 @@ def test_alternatives_of_names_in_settings_take_the_prefix_of_a_module(tmp_path:
 """
     robot = migrated(tmp_path, text).robot
     assert "$(prefix + 'ray_of_classic' if engine == 'classic' else prefix + 'ray_of_harmonic')" in robot
+
+
+def test_a_rotation_that_only_one_alternative_has_is_zero_in_the_other(tmp_path: Path):
+    text = """
+<xacro:arg name="tilted" default="true"/>
+<link name="base">
+  <visual>
+    <xacro:if value="$(arg tilted)"><origin xyz="0 0 1" rpy="0.5 0 0"/></xacro:if>
+    <xacro:unless value="$(arg tilted)"><origin xyz="0 0 2"/></xacro:unless>
+    <geometry><sphere radius="1"/></geometry>
+  </visual>
+</link>
+"""
+    robot = migrated(tmp_path, text).robot
+    assert "origin: {xyz: [0, 0, $(1 if tilted else 2)], rpy: [$(0.5 if tilted else 0), 0, 0]}" in robot
