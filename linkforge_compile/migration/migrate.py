@@ -145,13 +145,6 @@ def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head
             robot = expander.expand()
             return _written(robot, expander, calls, settled, head)
         except NoModuleError as error:
-            print(
-                "NOMOD",
-                error.body.get("name"),
-                error.reason,
-                error.fixed,
-                [(o.tag, o.get("name")) for o in error.outer],
-            )
             body = error.body
             known = fixed.get(body, frozenset())
             if same := _constant(error.fixed - known, body, first.called):

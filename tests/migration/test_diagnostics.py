@@ -1,5 +1,6 @@
 """What a migration reports, and the command."""
 
+import json
 import re
 from pathlib import Path
 
@@ -130,3 +131,19 @@ def test_a_macro_that_cannot_be_translated_stays_one(tmp_path: Path):
     assert "macro 'part' stays a macro of its xacro" in ran.stderr  # LF8045
     spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert 'tip: {use: ../parts.xacro, macro: part, parent: base, prefix: "", with: {name: tip}}' in spec
+
+
+def test_the_report_as_json_counts_the_macros_that_are_parts(tmp_path: Path):
+    text = """
+<xacro:macro name="tip" params="parent"><link name="tip"/>
+  <joint name="j" type="fixed"><parent link="${parent}"/><child link="tip"/></joint></xacro:macro>
+<xacro:macro name="arm" params="parent"><xacro:tip parent="${parent}"/></xacro:macro>
+<xacro:macro name="mass" params="value"><inertial><mass value="${value}"/>
+  <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></xacro:macro>
+<link name="base"><xacro:mass value="1"/></link>
+<xacro:arm parent="base"/>
+"""
+    write(tmp_path, robot=text)
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--json", cwd=tmp_path)
+    report = json.loads(ran.stdout)
+    assert (report["macros"], report["parts"], report["modules"]) == (3, 2, 2)
