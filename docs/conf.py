@@ -33,6 +33,7 @@ NAVIGATION = {
         "docs/view",
         "docs/overview",
         "docs/collisions",
+        "docs/sweep",
         "docs/editors",
         "docs/builds",
         "docs/templates",

@@ -97,7 +97,7 @@ class Listing(NamedTuple):
 
 def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listing:
     """List what a file declares; faults are reported, but not parameters without a value."""
-    scope = _scope_without_arguments(spec, loader, sink)
+    scope = scope_without_arguments(spec, loader, sink)
     variants = Variants.of(spec)
     BoundArguments(Arguments(is_partial=True), sink).report_unknown(scope.declared, variants, spec)
     return Listing(
@@ -116,7 +116,7 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
 
     A file that cannot be read is left out, as is a computed `use`; compiling reports them.
     """
-    scope = _scope_without_arguments(spec, loader, Diagnostics())
+    scope = scope_without_arguments(spec, loader, Diagnostics())
     listed: dict[str, Listing | None] = {}
     for entry in spec.tree.section("modules").values():
         use = entry.value.get("use") if isinstance(entry.value, YamlMap) else None
@@ -127,7 +127,7 @@ def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
 
 def list_use(spec: SpecFile, use: YamlScalar, loader: Loader) -> Listing | None:
     """List what one spec or xacro that a file uses declares; None as for `list_used`."""
-    scope = _scope_without_arguments(spec, loader, Diagnostics())
+    scope = scope_without_arguments(spec, loader, Diagnostics())
     return _list_module(scope.site(use.text, use.span), loader, Diagnostics())
 
 
@@ -154,7 +154,7 @@ def as_written(node: YamlNode) -> str:
             return ""
 
 
-def _scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileScope:
+def scope_without_arguments(spec: SpecFile, loader: Loader, sink: Diagnostics) -> FileScope:
     state = CompileState(spec, loader, Expressions(loader.budget), Unset.NOTE)
     return FileScope(Use(spec, BoundArguments(Arguments(is_partial=True), sink)), state, sink)
 

@@ -66,10 +66,14 @@ MAY_IMPORT = {
         "source diagnostics checks formats core shape_files resources compare expand listing analysis pipeline "
         "file_watcher units"
     ),
+    "sweep": (
+        "source diagnostics units limits syntax expressions core listing load expand formats overview banner roots "
+        "paths analysis compilation _version"
+    ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
         "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp "
-        "resources units file_watcher _version"
+        "sweep resources units file_watcher _version"
     ),
 }
 

@@ -34,6 +34,7 @@ COMMANDS = {
     "view": "show a robot in the browser, live, or write a page or a picture of it",
     "diff": "compare two robots, specs or URDFs",
     "where": "find what in a spec wrote a line of an output",
+    "sweep": "compile one spec with many values: grids, random samples, tables; on all processors or a cluster",
     "collisions": "find the pairs of links that need no check for collisions, by sampling",
     "import": "convert an existing URDF to a spec",
     "migrate": "translate a xacro to specs: a module for each macro, proved to be the same robot",

@@ -27,14 +27,14 @@ class ProgressBar:
         self._begin = self._last = monotonic()
         self._is_drawn = False
 
-    def show(self, done: int) -> None:
-        """Show that so many units are done, if the last time was long enough ago."""
+    def show(self, done: int, note: str = "") -> None:
+        """Show that so many units are done, with a note, if the last time was long enough ago."""
         now = monotonic()
         if now - self._last < (_REDRAWN if self._is_bar else PROGRESS_INTERVAL):
             return
         self._last = now
         left = (now - self._begin) / done * (self._total - done) if done else 0.0
-        text = f"{done:,} of {self._total:,} {self._unit}, {left:.0f} s left"
+        text = f"{done:,} of {self._total:,} {self._unit}, {left:.0f} s left{f', {note}' if note else ''}"
         if self._is_bar:
             filled = WIDTH * done // self._total
             write_to_stderr(f"\r[{'#' * filled}{' ' * (WIDTH - filled)}] {text}\033[K")

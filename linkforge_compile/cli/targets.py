@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile import formats
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.enumerations import alternatives
+from linkforge_compile.paths import stem_of
 
 if TYPE_CHECKING:
     import argparse
@@ -230,10 +231,7 @@ def name_of(spec: str) -> str:
     """Return the name of a spec's outputs: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
     if spec == "-":
         return "robot"
-    name = Path(spec).name
-    for ending in (".yaml", ".yml", ".robot", ".xacro", ".xml", ".urdf"):
-        name = name.removesuffix(ending)
-    return name
+    return stem_of(spec)
 
 
 def _several(outputs: Sequence[str], chosen: str | None) -> dict[str, Path | None]:

@@ -73,5 +73,12 @@ def test_options_of_formats_are_those_of_commands_on_which_they_have_an_effect(c
         with pytest.raises(SystemExit):
             main([command, "--help"])
         shown = names.intersection(capfd.readouterr().out.split())
-        effects = {"compile": names, "watch": names, "check": names, "deps": names, "diff": {"--gazebo"}}
+        effects = {
+            "compile": names,
+            "watch": names,
+            "check": names,
+            "deps": names,
+            "sweep": names,
+            "diff": {"--gazebo"},
+        }
         assert shown == effects.get(command, set())

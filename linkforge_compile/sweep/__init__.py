@@ -1,0 +1,159 @@
+"""Compile one spec with many values: grids, lists, random samples and tables of values.
+
+    from linkforge_compile.sweep import run
+
+    def score(robot, values):
+        return {"payload": 12.0 / values["reach"], "links": len(robot.links)}
+
+    table = run("arm.robot.yaml", {"reach": "0.4m:1m:20", "fingers": [2, 3, 5]}, score)
+
+`grid` has, by parameter, a text as in `--set`, or its values: numbers in SI units, or texts with units. With `sample`,
+that many random points are drawn instead, and a text such as "0.4m:1m" is an interval.
+
+The function gets a Robot and the values of its point by parameter: SI numbers, texts and truth values. It returns a
+number, which becomes the column `result`, a mapping of columns to numbers, texts or truth values, or None. What it
+raises is a diagnostic of that robot. With `jobs` above 1, processes of a Dask cluster on this machine compile, and
+receive the function by cloudpickle; the script that calls `run` then needs `if __name__ == "__main__":`.
+
+The table has a row for each robot, in the order of the points. docs/sweep.md describes its columns.
+
+What flows: the options become a `Plan`, which is checked before anything is compiled: a `Request` (how to compile any
+point, as plain values) and `Points` (each made from its index alone). Ranges of points are chunks. A chunk becomes a
+list of `Made`: the files of each robot, and its row of the table. The store writes a chunk in one step, so that an
+interrupted sweep goes on with the chunks that are missing, and in the end joins their rows to one table.
+
+A worker needs no disk that it shares with the client. It receives a `Bundle`, the files that the compile of a point
+reads by their SHA-256, lays them out below a folder of its own, and compiles there. If a diagnostic may be about a
+file that it lacks, the client compiles that point itself, adds what it reads, and sends the chunk again; what the
+client finds then counts.
+
+What each module knows; it imports only those above it:
+
+    errors       what is wrong with a sweep as a whole
+    place        where robots are compiled
+    arrow        pyarrow and distributed, which the extra `sweep` brings
+    declared     a spec -> its parameters with types and constant limits
+    axes         `--set` -> axes of texts, and intervals
+    points       axes, intervals -> the point of an index
+    value_table  a CSV or Parquet file -> an axis
+    condition    `--where` -> whether a point is compiled
+    rows         a Robot and diagnostics -> a row of the table
+    bundle       paths -> files by digest -> a tree of them on another machine
+    work         a Request and points -> robots and rows
+    store        chunks -> folders or archives, the table, the manifest
+    scheduler    chunks -> Dask's workers, or this process -> what they made
+    plan         the options -> all of the above decided
+    session      a plan -> a finished sweep, and what went wrong in it
+
+A process reads and validates a file once, however many points it compiles: load/spec_tree.py keeps faultless trees by
+place and text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from linkforge_compile.paths import stem_of
+from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
+from linkforge_compile.sweep.place import Place
+
+if TYPE_CHECKING:
+    from linkforge_compile.sweep.plan import Plan
+    from linkforge_compile.sweep.work import Function, Request
+
+__all__ = ["SweepError", "run"]
+
+
+def run(
+    spec: str | Path,
+    grid: Mapping[str, object] | None = None,
+    function: Function | None = None,
+    *,
+    sample: int | None = None,
+    seed: int = 0,
+    values: str | Path | None = None,
+    where: str | None = None,
+    parameters: Mapping[str, object] | None = None,
+    variants: Iterable[str] = (),
+    packages: Mapping[str, str | Path] | None = None,
+    formats: Iterable[str] = (),
+    options: Mapping[str, str] | None = None,
+    output: str | Path | None = None,
+    resume: bool = False,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    max_points: int = MAX_POINTS,
+    allow_outside: bool = False,
+) -> Any:
+    """Compile a spec at every point of a grid, and return the `pyarrow.Table` of the robots.
+
+    The words are those of `linkforge sweep`, and `function` is described at the top of this module. `output` is the
+    folder of robots, table and manifest, None for the table alone.
+
+    Raises:
+        SweepError: for what is wrong with the sweep as a whole; faults of single robots are in the table.
+
+    """
+    from linkforge_compile.sweep.plan import Choice, plan_of
+
+    names, path = tuple(variants), None if values is None else Path(values)
+    about = {**(options or {})}, tuple(formats), allow_outside
+    request = _request_of(spec, parameters or {}, names, packages or {}, about)
+    sets = tuple(_set_text(name, value) for name, value in (grid or {}).items())
+    choice = Choice(sets, names, path, where, sample, seed, max_points)
+    plan = plan_of(request._replace(has_files=output is not None, function=function), choice)
+    return _table_of(plan, None if output is None else Path(output), Place(jobs, scheduler), resume=resume)
+
+
+def _request_of(
+    spec: str | Path,
+    parameters: Mapping[str, object],
+    variants: tuple[str, ...],
+    packages: Mapping[str, str | Path],
+    about: tuple[dict[str, str], tuple[str, ...], bool],
+) -> Request:
+    from linkforge_compile.sweep.work import Request
+
+    options, formats, allow_outside = about
+    return Request(
+        str(spec),
+        stem_of(spec),
+        tuple(f"{name}={_text(value)}" for name, value in parameters.items()),
+        variants[0] if len(variants) == 1 else None,
+        {name: str(path) for name, path in packages.items()},
+        {"gazebo": "gz", **options},
+        formats,
+        allow_outside,
+    )
+
+
+def _table_of(plan: Plan, output: Path | None, place: Place, *, resume: bool) -> Any:
+    """Run a plan in a folder, for None a temporary one, and return its table."""
+    from linkforge_compile.sweep.session import execute
+    from linkforge_compile.sweep.store import Store
+
+    with TemporaryDirectory(prefix="linkforge-sweep-") as temporary:
+        packing = "none" if output is None else "folders"
+        store = Store(output or Path(temporary), packing, plan.request.columns, has_variants=plan.has_variants)
+        execute(plan, store, place, packing, resume=resume)
+        return store.table()
+
+
+def _set_text(name: str, value: object) -> str:
+    """Return values of a parameter as `--set` has them."""
+    if value is None:
+        return name
+    if isinstance(value, Iterable) and not isinstance(value, str):
+        return f"{name}={','.join(map(_text, value))}"
+    return f"{name}={_text(value)}"
+
+
+def _text(value: object) -> str:
+    from linkforge_compile.units import number_text
+
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return str(value) if isinstance(value, str | Path) else number_text(value)  # type: ignore[arg-type]

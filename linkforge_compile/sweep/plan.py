@@ -1,0 +1,203 @@
+"""Decide what a sweep does, before it does anything: its points, its request, and what its manifest says."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import NamedTuple
+
+from linkforge_compile._version import __version__
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.expand.parameters import Parameter
+from linkforge_compile.sweep.axes import VARIANT, Axis, AxisReader, Varied, too_many
+from linkforge_compile.sweep.bundle import Bundle
+from linkforge_compile.sweep.condition import Condition
+from linkforge_compile.sweep.declared import Declared, declared_by
+from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
+from linkforge_compile.sweep.points import Grid, Point, Points, Samples
+from linkforge_compile.sweep.store import Chunk, reserved_columns
+from linkforge_compile.sweep.value_table import read_values
+from linkforge_compile.sweep.work import Request
+
+_CHUNK = 100
+"""The most points of a chunk; a sweep of few points has smaller ones, for several workers."""
+
+_CHUNKS = 32
+
+
+class Choice(NamedTuple):
+    """What to vary, as the options say it.
+
+    - `sets`: texts of `--set`.
+    - `variants`: an axis of variants if there are several.
+    - `values`: a CSV or Parquet file, whose rows are combined with every `--set`.
+    - `where`: an expression that a point must fulfil.
+    - `sample`: how many random points, None for a grid.
+    """
+
+    sets: tuple[str, ...] = ()
+    variants: tuple[str, ...] = ()
+    values: Path | None = None
+    where: str | None = None
+    sample: int | None = None
+    seed: int = 0
+    max_points: int = MAX_POINTS
+    chunk: int | None = None
+
+
+class Plan(NamedTuple):
+    """A sweep that can be run: `kept` are the indices of the points that fulfil `where`, None for all."""
+
+    request: Request
+    choice: Choice
+    points: Points
+    kept: Sequence[int] | None
+    chunk: int
+    has_variants: bool
+
+    @property
+    def size(self) -> int:
+        """How many robots are compiled."""
+        return len(self.points) if self.kept is None else len(self.kept)
+
+    def points_of(self, chunk: Chunk) -> list[Point]:
+        """Return the points of a chunk that are compiled."""
+        if self.kept is None:
+            return [self.points[index] for index in range(chunk.begin, chunk.end)]
+        return [self.points[self.kept[at]] for at in range(chunk.begin, chunk.end)]
+
+    def manifest(self, bundle: Bundle, packing: str) -> dict[str, object]:
+        """Return what must agree for a sweep to be continued; paths are as typed."""
+        request, choice = self.request, self.choice
+        function = request.function
+        return {
+            "version": 1,
+            "linkforge": __version__,
+            "spec": request.spec,
+            "files": {_shown(path, bundle.folder): digest for path, digest in sorted(bundle.files.items())},
+            "parameters": list(request.parameters),
+            "set": list(choice.sets),
+            "variants": list(choice.variants),
+            "values": _digest_of(choice.values),
+            "where": choice.where,
+            "sample": choice.sample,
+            "seed": choice.seed if choice.sample is not None else None,
+            "points": len(self.points),
+            "robots": self.size,
+            "formats": list(request.formats),
+            "options": dict(request.options),
+            "chunk": self.chunk,
+            "output": packing,
+            "function": getattr(function, "__qualname__", repr(function)) if function else None,
+        }
+
+
+def plan_of(request: Request, choice: Choice, checked: Callable[[int, int], None] = lambda _done, _of: None) -> Plan:
+    """Return the plan of a sweep; SweepError for all that is wrong with what was requested.
+
+    `checked` is called with the number of points for which `where` was computed, and that of all.
+    """
+    spec = Path(request.spec)
+    declared, sink = declared_by(spec, request.settings(Point(0, {}))), Diagnostics()
+    varied = _varied(declared, choice, _fixed_names(request), sink)
+    if sink.has_errors:
+        raise SweepError("the values of the sweep are wrong", sink.sorted())
+    axes, parameters = list(varied.axes), dict(varied.parameters)
+    _require_variation(varied, choice, declared)
+    _require_values(declared, request, parameters, choice)
+    if clashing := reserved_columns().intersection(parameters):
+        raise SweepError(f"'{min(clashing)}' is the name of a column of every table, so it cannot be varied")
+    points = _points(axes, varied, choice)
+    if len(points) > choice.max_points:
+        raise SweepError(too_many(len(points), choice.max_points))
+    has_variants = any(VARIANT in axis.names for axis in axes)
+    request = request._replace(columns=parameters)
+    kept = None if choice.where is None else _kept(choice.where, request, points, checked)
+    count = len(points) if kept is None else len(kept)
+    chunk = choice.chunk or max(1, min(_CHUNK, -(-count // _CHUNKS)))
+    return Plan(request, choice, points, kept, chunk, has_variants)
+
+
+def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Diagnostics) -> Varied:
+    reader = AxisReader(declared, sink, samples=choice.sample is not None, max_points=choice.max_points)
+    for text in choice.sets:
+        reader.read(text)
+    if choice.sample is not None:
+        if choice.values is not None:
+            raise SweepError("--sample draws values and --values lists them; use one of them")
+        reader.add_own_limits(fixed)
+    axes, parameters = reader.axes, dict(reader.parameters)
+    if choice.values is not None:
+        axis, columns = read_values(choice.values, declared, sink)
+        if twice := set(columns).intersection(parameters):
+            raise SweepError(f"'{min(twice)}' is varied by --set and by a column of '{choice.values}'")
+        axes, parameters = [*axes, axis], parameters | dict(columns)
+    if len(choice.variants) > 1:
+        axes = [*axes, _variant_axis(choice.variants, declared)]
+    if both := fixed.intersection(parameters):
+        raise SweepError(f"'{min(both)}' is fixed by -p and varied as well; leave one of them out")
+    return Varied(tuple(axes), tuple(reader.intervals), parameters)
+
+
+def _variant_axis(variants: Sequence[str], declared: Declared) -> Axis:
+    from linkforge_compile.diagnostics.suggest import did_you_mean
+
+    for name in (name for text in variants for name in ([text] if text in declared.variants else text.split("+"))):
+        if name not in declared.variants:
+            hint = did_you_mean(name, declared.variants) or (
+                f"; there are {', '.join(declared.variants)}" if declared.variants else "; the spec declares none"
+            )
+            raise SweepError(f"there is no variant '{name}'{hint}")
+    return Axis((VARIANT,), [(name,) for name in variants])
+
+
+def _fixed_names(request: Request) -> frozenset[str]:
+    return frozenset(pair.partition("=")[0].removesuffix(":").strip() for pair in request.parameters)
+
+
+def _require_variation(varied: Varied, choice: Choice, declared: Declared) -> None:
+    if varied.axes or varied.intervals:
+        return
+    names = ", ".join(declared.parameters) or "none"
+    if choice.sample is not None:
+        raise SweepError(f"no parameter has limits to sample between; write --set NAME=LO:HI (parameters: {names})")
+    raise SweepError(f"nothing is varied; write --set NAME=START:STOP:COUNT or NAME=VALUE,VALUE (parameters: {names})")
+
+
+def _require_values(declared: Declared, request: Request, varied: Mapping[str, Parameter], choice: Choice) -> None:
+    """Refuse a sweep in which no robot has a value for a required parameter."""
+    missing = declared.required - _fixed_names(request) - set(varied)
+    if missing and not choice.variants and request.variant is None:
+        name = min(missing)
+        raise SweepError(
+            f"'{name}' has no default; vary it with --set {name}=…, or set it for all with -p {name}=VALUE"
+        )
+
+
+def _points(axes: Sequence[Axis], varied: Varied, choice: Choice) -> Points:
+    if choice.sample is None:
+        return Grid(axes)
+    return Samples(axes, varied.intervals, choice.sample, choice.seed)
+
+
+def _kept(where: str, request: Request, points: Points, checked: Callable[[int, int], None]) -> Sequence[int]:
+    """Return the indices of the points that fulfil a condition."""
+    condition = Condition(where, Path(request.spec), request.settings, request.columns)
+    kept = array("Q")
+    for index in range(len(points)):
+        if condition.holds(points[index]):
+            kept.append(index)
+        checked(index + 1, len(points))
+    if not kept:
+        raise SweepError(f"--where {where} holds at none of the {len(points):,} points")
+    return kept
+
+
+def _digest_of(path: Path | None) -> str | None:
+    return None if path is None else sha256(path.read_bytes()).hexdigest()
+
+
+def _shown(path: str, folder: str) -> str:
+    return path.removeprefix(folder).lstrip("/") if path.startswith(f"{folder}/") else path

@@ -1,0 +1,203 @@
+"""Run chunks in this process, or on a cluster of Dask."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from linkforge_compile.sweep.arrow import distributed
+from linkforge_compile.sweep.bundle import Bundle, Tree
+from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.points import Point
+from linkforge_compile.sweep.store import Chunk
+from linkforge_compile.sweep.work import Made, Request, make_all
+
+_IN_FLIGHT = 3
+"""Chunks that are sent for each process: one is computed, one waits, and one is on its way back."""
+
+_RETRIES = 10
+"""How many workers may be lost with one chunk before it is given up."""
+
+_WAITING_FOR_WORKERS = 30.0
+"""How long a cluster may have no worker [s]."""
+
+PointsOf = Callable[[Chunk], list[Point]]
+"""Returns the points of a chunk that are to be compiled."""
+
+Grow = Callable[[list[Made], Bundle], Bundle]
+"""Returns the bundle with the files that compiled points lack, the same one if there are none."""
+
+
+class Files(NamedTuple):
+    """The bundle that the client keeps up to date, and the contents of its files by digest."""
+
+    bundle: Bundle
+    blobs: dict[str, bytes]
+
+
+def run_here(request: Request, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
+    """Yield each chunk with what this process made of it."""
+    for chunk in chunks:
+        yield chunk, make_all(request, points_of(chunk))
+
+
+@contextmanager
+def cluster(place: Place) -> Iterator[Any]:
+    """Connect to a scheduler, or start one with processes of one thread each on this machine.
+
+    Raises:
+        SweepError: if there is no scheduler at the address, or it has no workers, or no process can be started.
+
+    """
+    if place.scheduler is not None:
+        with _connected(place.scheduler, place.security) as client:
+            yield client
+        return
+    library = distributed()
+    import logging
+
+    import dask
+
+    with dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES}):
+        try:
+            # Only this machine can connect, and no server of pages is started.
+            local = library.LocalCluster(
+                n_workers=place.jobs,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address=None,
+                silence_logs=logging.CRITICAL,
+            )
+        except RuntimeError as error:
+            raise SweepError(
+                f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
+                "with one job no other process is needed"
+            ) from error
+        with local, library.Client(local, set_as_default=False) as client:
+            yield client
+
+
+def _connected(address: str, security: Mapping[str, str]) -> Any:
+    library = distributed()
+
+    try:
+        tls = library.Security(require_encryption=True, **security) if security else None
+        client = library.Client(address, set_as_default=False, security=tls, timeout="10s")
+    except (OSError, ValueError, ImportError, TypeError, RuntimeError) as error:
+        raise SweepError(f"there is no scheduler at '{address}': {error}") from error
+    try:
+        client.wait_for_workers(1, timeout=_WAITING_FOR_WORKERS)
+    except TimeoutError as error:
+        client.close()
+        raise SweepError(f"the scheduler at '{address}' has no workers; start some: dask worker {address}") from error
+    return client
+
+
+class Cluster:
+    """Sends chunks to the workers of a client, with the files that they need, and collects what they make."""
+
+    def __init__(self, client: Any, request: Request, files: Files, grow: Grow) -> None:
+        self._client, self._request, self._grow = client, request, grow
+        self._bundle, self._blobs = files
+        self._sent: set[str] = set()
+        self._setups: list[Any] = []
+        self._send_setup()
+
+    def _send_setup(self) -> None:
+        """Send what the workers do not have yet, as tasks, whose results a lost worker does not take along."""
+        new = {digest: self._blobs[digest] for digest in set(self._bundle.files.values()) - self._sent}
+        self._sent |= set(new)
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message="Sending large graph")
+            self._setups.append(self._client.submit(_as_it_is, new, pure=False))
+            self._job = self._client.submit(_as_it_is, (self._request, self._bundle), pure=False)
+
+    def run(self, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
+        """Yield each chunk with what was made of it, in the order in which they are done.
+
+        Only some chunks are sent at a time, so that neither side keeps many robots in memory.
+        """
+        waiting, sent = iter(chunks), dict[Any, tuple[Chunk, list[Point], Bundle]]()
+        done = distributed().as_completed(loop=self._client.loop)
+
+        def send(chunk: Chunk, points: list[Point]) -> None:
+            future = self._client.submit(_work, self._job, self._setups, points, pure=False, retries=_RETRIES)
+            sent[future] = chunk, points, self._bundle
+            done.add(future)
+
+        def send_next() -> None:
+            if chunk := next(waiting, None):
+                send(chunk, points_of(chunk))
+
+        for _ in range(_IN_FLIGHT * max(1, len(self._client.scheduler_info(n_workers=-1)["workers"]))):
+            send_next()
+        for future in done:
+            chunk, points, bundle = sent.pop(future)
+            made = self._result(future)
+            del future  # or the cluster keeps its result
+            if self._lacks_files(made, bundle):
+                send(chunk, points)
+                continue
+            send_next()
+            yield chunk, made
+
+    def _result(self, future: Any) -> list[Made]:
+        from distributed.scheduler import KilledWorker
+
+        try:
+            result: list[Made] = future.result()
+        except KilledWorker as error:
+            raise SweepError(f"{_RETRIES} workers were lost with the same robots; is there enough memory?") from error
+        return result
+
+    def _lacks_files(self, made: list[Made], bundle: Bundle) -> bool:
+        """Whether points lacked files that the client has, which are in the bundle by now."""
+        if not any(one.is_about_files for one in made):
+            return False
+        grown = self._grow(made, self._bundle)
+        if grown is not self._bundle:
+            self._bundle = grown
+            self._send_setup()
+        return self._bundle is not bundle
+
+
+def _as_it_is(value: object) -> object:
+    return value
+
+
+# In a worker
+
+_trees: dict[str, Tree] = {}
+"""The trees of this process, by the digest of their bundles."""
+
+
+def _work(job: tuple[Request, Bundle], blobs: Sequence[Mapping[str, bytes]], points: list[Point]) -> list[Made]:
+    """Compile points in a tree of the client's files."""
+    request, bundle = job
+    return make_all(request, points, _tree_of(bundle, blobs))
+
+
+def _tree_of(bundle: Bundle, blobs: Sequence[Mapping[str, bytes]]) -> Tree:
+    if bundle.digest not in _trees:
+        contents = {digest: content for part in blobs for digest, content in part.items()}
+        for digest, content in contents.items():
+            if sha256(content).hexdigest() != digest:
+                raise SweepError(f"a file arrived changed, with another digest than {digest}")
+        _trees[bundle.digest] = Tree(_folder_of_trees() / bundle.digest[:16], bundle, contents)
+    return _trees[bundle.digest]
+
+
+def _folder_of_trees() -> Path:
+    """Return this process's folder of trees, which is removed when it ends."""
+    import atexit
+    import shutil
+    import tempfile
+
+    folder = Path(tempfile.mkdtemp(prefix="linkforge-sweep-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder

@@ -1,0 +1,150 @@
+"""Run a plan: compile what is not done yet, write it, and tell what went wrong."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+from linkforge_compile.overview.figures import mesh_files
+from linkforge_compile.sweep.bundle import Bundle, add_files, changed_files
+from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.plan import Plan
+from linkforge_compile.sweep.points import Point
+from linkforge_compile.sweep.scheduler import Cluster, Files, cluster, run_here
+from linkforge_compile.sweep.store import Chunk, Store, chunks_of
+from linkforge_compile.sweep.work import ABOUT_FILES, Made, compile_point, make
+
+Progress = Callable[[int, int], None]
+"""Takes how many robots are done, and how many of them have errors."""
+
+
+class Group(NamedTuple):
+    """A message, how many robots it is about, and the first of them."""
+
+    severity: str
+    text: str
+    robots: int
+    first: Point
+
+
+@dataclass
+class Summary:
+    """How many robots a sweep has, how many were compiled now, how many have errors, and the messages by how often."""
+
+    robots: int = 0
+    compiled: int = 0
+    failed: int = 0
+    groups: list[Group] = field(default_factory=list)
+
+
+def execute(
+    plan: Plan, store: Store, place: Place, packing: str, *, resume: bool, progress: Progress = lambda _done, _bad: None
+) -> Summary:
+    """Compile all robots of a plan that are not done, write the table, and return the summary."""
+    files = collect_files(plan)
+    done = store.begin(plan.manifest(files.bundle, packing), resume=resume)
+    summary = Summary(plan.size)
+    if not store.is_finished:
+        todo = [chunk for chunk in chunks_of(plan.size, plan.chunk) if chunk not in done]
+        count, failed = plan.size - sum(chunk.end - chunk.begin for chunk in todo), 0
+        for chunk, made in _results(plan, files, place, todo):
+            store.add(chunk, made)
+            count += len(made)
+            failed += sum(bool(one.row["errors"]) for one in made)
+            summary.compiled += len(made)
+            progress(count, failed)
+        if changed := changed_files(files.bundle):
+            raise SweepError(f"'{changed[0]}' changed while the sweep ran; remove the folder, and start it again")
+        store.finish()
+    summary.failed, summary.groups = _grouped(plan, store)
+    return summary
+
+
+def collect_files(plan: Plan) -> Files:
+    """Compile the first point, and return the files that it reads."""
+    point = plan.points_of(Chunk(0, 1))[0]
+    blobs: dict[str, bytes] = {}
+    return Files(_with_files_of(plan, point, Bundle.of_here(), blobs), blobs)
+
+
+def _with_files_of(plan: Plan, point: Point, bundle: Bundle, blobs: dict[str, bytes]) -> Bundle:
+    """Return the bundle with all files that a point reads, and the meshes that it only names."""
+    compilation = compile_point(plan.request, point)
+    meshes = mesh_files(compilation.robot).values() if compilation.robot else ()
+    return add_files(bundle, (*compilation.files, *(one for one in meshes if isinstance(one, Path))), blobs)
+
+
+def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Iterator[tuple[Chunk, list[Made]]]:
+    if not chunks:
+        return
+    if place.is_here:
+        yield from run_here(plan.request, chunks, plan.points_of)
+        return
+    judge = _Judge(plan, files.blobs)
+    with cluster(place._replace(jobs=min(place.jobs, len(chunks)))) as client:
+        work = Cluster(client, plan.request, files, judge.grow)
+        for chunk, made in work.run(chunks, plan.points_of):
+            yield chunk, [judge.final(one) for one in made]
+
+
+class _Judge:
+    """Decides whether what a worker reports about files is true, by compiling the point here, where all files are.
+
+    What is true of one point is believed of others.
+    """
+
+    def __init__(self, plan: Plan, blobs: dict[str, bytes]) -> None:
+        self._plan, self._blobs = plan, blobs
+        self._true: set[tuple[str, str]] = set()
+
+    def grow(self, made: list[Made], bundle: Bundle) -> Bundle:
+        """Return the bundle with the files that a point reads here, the same one if it has them all."""
+        for one in made:
+            if not self._is_true(one):
+                more = _with_files_of(self._plan, one.point, bundle, self._blobs)
+                if more.files != bundle.files:
+                    return more  # may be what all others of the chunk lack
+        return bundle
+
+    def final(self, one: Made) -> Made:
+        """Return what was made of a point, here if it may lack a file where it was made."""
+        if self._is_true(one):
+            return one
+        own = make(self._plan.request, one.point)
+        self._true.update(_about_files(own))
+        return own
+
+    def _is_true(self, one: Made) -> bool:
+        return not one.is_about_files or self._true.issuperset(_about_files(one))
+
+
+def _about_files(one: Made) -> list[tuple[str, str]]:
+    """Return the diagnostics of a point that may be about files."""
+    messages = [_message(each) for each in json.loads(str(one.row["diagnostics"])) if each["code"]]
+    return [each for each in messages if any(f"[{code}" in each[1] for code in ABOUT_FILES)]
+
+
+def _grouped(plan: Plan, store: Store) -> tuple[int, list[Group]]:
+    """Return how many robots have errors, and the messages of all, the most frequent error first."""
+    groups: dict[tuple[str, str], Group] = {}
+    failed = 0
+    for rows in store.batches(("index", "errors", "warnings", "diagnostics")):
+        for row in rows:
+            failed += bool(row["errors"])
+            if not (row["errors"] or row["warnings"]):
+                continue
+            for severity, text in dict.fromkeys(map(_message, json.loads(str(row["diagnostics"])))):
+                known = groups.get((severity, text))
+                first = known.first if known else plan.points[int(row["index"] or 0)]
+                groups[severity, text] = Group(severity, text, known.robots + 1 if known else 1, first)
+    return failed, sorted(groups.values(), key=lambda one: (one.severity, -one.robots, one.first.index))
+
+
+def _message(one: Mapping[str, object]) -> tuple[str, str]:
+    place = f"{one['file']}:{one['line']}:{one['column']}: " if one["file"] else ""
+    code = f"[{one['code']}] " if one["code"] else ""
+    return str(one["severity"]), f"{place}{code}{one['message']}"

@@ -1,0 +1,258 @@
+"""`linkforge sweep`, in this process unless a test is about others."""
+
+import json
+import math
+import shutil
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pyarrow.parquet
+import pytest
+
+from linkforge_compile import compile_file, render_urdf
+from tests.cli.in_process import linkforge
+from tests.sweep.specs import ARM, write_arm
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_arm(tmp_path)
+    return tmp_path
+
+
+def sweep(folder: Path, *words: str, jobs: str = "1") -> tuple[int, str]:
+    done = linkforge("sweep", "arm.robot.yaml", "-o", "out", "--jobs", jobs, *words, cwd=folder)
+    return done.returncode, done.stderr
+
+
+def rows(folder: Path) -> list[dict[str, object]]:
+    return pyarrow.parquet.read_table(folder / "out/table.parquet").to_pylist()
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(one.relative_to(folder)): one.read_bytes() for one in folder.rglob("*") if one.is_file()}
+
+
+def test_each_robot_is_what_compile_writes(folder: Path):
+    assert sweep(folder, "--set", "reach=0.4m:1m:3", "--set", "tool=hand,hook") == (0, "6 robots in out\n")
+    linkforge("compile", "arm.robot.yaml", "-o", "build/", "reach:=0.7 m", "tool:=hook", cwd=folder)
+    assert contents(folder / "out/robots/000003") == contents(folder / "build")
+    assert sorted(path.name for path in (folder / "out/robots").iterdir()) == [f"{i:06}" for i in range(6)]
+
+
+def test_the_table_has_the_figures_of_each_robot(folder: Path):
+    """The base of 3 kg is at the origin, as is the upper arm of 2 kg; two fingers of 0.1 kg are at half the reach."""
+    sweep(folder, "--set", "reach=0.4m,1m")
+    schema = pyarrow.parquet.read_schema(folder / "out/table.parquet")
+    assert schema.field("reach").metadata == {b"unit": b"m"}
+    assert schema.field("robot_ixx").metadata == {b"unit": b"kg*m^2"}
+    first, second = rows(folder)
+    assert (second["index"], second["reach"], second["robot_dof"], second["robot_links"]) == (1, 1.0, 1, 4)
+    assert second["robot_mass"] == pytest.approx(5.2)
+    assert second["robot_com_z"] == pytest.approx(0.2 * 0.5 / 5.2)
+    assert second["robot_reach"] == pytest.approx(0.5)
+    box, arm, ball = 3 * (2 * 0.1**2) / 12, 2 * (0.5**2 + 0.05**2) / 12, 0.2 * 2 / 5 * 0.02**2
+    spread = 0.2 * 0.5**2 - 5.2 * (0.2 * 0.5 / 5.2) ** 2
+    assert second["robot_ixx"] == pytest.approx(box + arm + ball + spread)
+    assert second["robot_ixy"] == pytest.approx(0, abs=1e-12)
+    assert (second["errors"], second["warnings"]) == (0, 0)
+    assert second["digest"] != first["digest"]
+
+
+def test_the_inertia_is_in_the_frame_of_the_root(folder: Path):
+    """As Pinocchio computes it, of an arm whose parts are turned."""
+    pinocchio = pytest.importorskip("pinocchio")
+    (folder / "arm.robot.yaml").write_text(
+        ARM.replace("sphere: 0.02", "box: [0.1, 0.2, 0.3]").replace("0.1 kg", "1 kg")
+    )
+    sweep(folder, "--set", "bend=30deg,70deg")
+    row = rows(folder)[1]
+    robot = compile_file(folder / "arm.robot.yaml", parameters={"bend": "70deg"}).result()
+    model = pinocchio.buildModelFromXML(render_urdf(robot), pinocchio.JointModelFreeFlyer())
+    data = model.createData()
+    pinocchio.ccrba(model, data, pinocchio.neutral(model), pinocchio.utils.zero(model.nv))
+    expected = data.Ig.inertia
+    names = {"robot_ixx": (0, 0), "robot_iyy": (1, 1), "robot_izz": (2, 2), "robot_ixy": (0, 1), "robot_iyz": (1, 2)}
+    for name, place in names.items():
+        assert row[name] == pytest.approx(expected[place], abs=1e-12)
+    assert row["robot_com_y"] == pytest.approx(pinocchio.centerOfMass(model, data, pinocchio.neutral(model))[1])
+
+
+def test_values_are_lossless(folder: Path):
+    sweep(folder, "--sample", "20", "--seed", "5")
+    for row in rows(folder):
+        urdf = (folder / f"out/robots/{row['index']:06}/arm.urdf").read_text()
+        assert repr(row["reach"] / 2) in urdf
+
+
+def test_the_same_command_writes_the_same_bytes(folder: Path):
+    sweep(folder, "--sample", "20", "--seed", "5")
+    first = contents(folder / "out")
+    shutil.rmtree(folder / "out")
+    sweep(folder, "--sample", "20", "--seed", "5")
+    assert contents(folder / "out") == first
+
+
+BROKEN = ARM.replace("variables:", "variables:\n  most: 1.6 m").replace("mass: 2 kg", "mass: $((most - reach) / most)")
+"""The mass of the arm is negative from a reach of 1.6 m."""
+
+
+def test_a_robot_with_errors_is_a_row_with_its_diagnostics(folder: Path):
+    (folder / "arm.robot.yaml").write_text(BROKEN)
+    code, text = sweep(folder, "--set", "reach=1m:2m:5")
+    assert code == 1
+    assert text.splitlines()[-1] == "5 robots in out, 2 with errors"
+    assert text.splitlines()[0].startswith("error in 1 robot, such as 000003 (-p reach='1.75 m'): arm.robot.yaml:")
+    table = rows(folder)
+    assert [row["errors"] > 0 for row in table] == [False, False, False, True, True]
+    assert table[4]["robot_mass"] is None
+    assert json.loads(table[4]["diagnostics"])[0]["file"] == "arm.robot.yaml"
+    assert not (folder / "out/robots/000004").exists()
+    assert (folder / "out/robots/000002/arm.urdf").exists()
+
+
+@pytest.mark.parametrize("pack", ["tar", "zip"])
+def test_robots_may_be_packed(folder: Path, pack: str):
+    sweep(folder, "--set", "reach=0.4m:1m:5", "--pack", pack, "--chunk", "2")
+    assert [one.name for one in sorted((folder / "out/robots").iterdir())] == [
+        f"{name}.{pack}" for name in ("000000-000001", "000002-000003", "000004-000004")
+    ]
+    archive = folder / f"out/robots/000002-000003.{pack}"
+    with tarfile.open(archive) if pack == "tar" else zipfile.ZipFile(archive) as opened:
+        names = opened.getnames() if pack == "tar" else opened.namelist()
+    assert names == ["000002/arm.urdf", "000002/arm.srdf", "000003/arm.urdf", "000003/arm.srdf"]
+
+
+def test_the_table_alone(folder: Path):
+    sweep(folder, "--set", "reach=0.4m:1m:5", "--table-only", "--format", "mjcf")
+    assert sorted(one.name for one in (folder / "out").iterdir()) == ["sweep.json", "table.parquet"]
+    assert all(row["digest"] for row in rows(folder))
+
+
+def test_a_folder_with_a_sweep_is_refused_and_a_finished_one_is_done(folder: Path):
+    sweep(folder, "--set", "reach=0.4m,1m")
+    before = contents(folder / "out")
+    code, text = sweep(folder, "--set", "reach=0.4m,1m")
+    assert (code, text) == (
+        2,
+        "linkforge sweep: 'out' has a sweep; continue it with --resume, remove the folder, or choose another one\n",
+    )
+    assert sweep(folder, "--set", "reach=0.4m,1m", "--resume") == (0, "2 robots in out, 2 of them before\n")
+    assert contents(folder / "out") == before
+
+
+def test_a_folder_with_other_files_is_refused(folder: Path):
+    (folder / "out").mkdir()
+    (folder / "out/thesis.tex").write_text("")
+    code, text = sweep(folder, "--set", "reach=0.4m,1m")
+    assert (code, text) == (
+        2,
+        "linkforge sweep: 'out' has files that no sweep wrote; choose an empty or a new folder\n",
+    )
+
+
+def test_another_sweep_is_not_resumed(folder: Path):
+    sweep(folder, "--set", "reach=0.4m,1m")
+    (folder / "arm.robot.yaml").write_text(f"{ARM}\n")
+    code, text = sweep(folder, "--set", "reach=0.4m,2m", "--resume")
+    assert code == 2
+    assert '  set: ["reach=0.4m,1m"] before, ["reach=0.4m,2m"] now' in text
+    assert '  files: {"arm.robot.yaml": ' in text
+
+
+def test_an_interrupted_sweep_goes_on(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    from linkforge_compile.sweep import session
+    from linkforge_compile.sweep.store import Store
+
+    words = ("--sample", "12", "--seed", "2", "--chunk", "3")
+    sweep(folder, *words)
+    whole = contents(folder / "out")
+    shutil.rmtree(folder / "out")
+    add, added = Store.add, []
+
+    def interrupted(self: Store, chunk, made) -> None:
+        if len(added) == 2:
+            raise KeyboardInterrupt
+        added.append(chunk)
+        add(self, chunk, made)
+
+    monkeypatch.setattr(session.Store, "add", interrupted)
+    code, text = sweep(folder, *words)
+    assert (code, text) == (
+        130,
+        "linkforge sweep: interrupted; the same command with --resume goes on in 'out'\n",
+    )
+    assert not (folder / "out/table.parquet").exists()
+    monkeypatch.setattr(session.Store, "add", add)
+    assert sweep(folder, *words, "--resume") == (0, "12 robots in out, 6 of them before\n")
+    assert contents(folder / "out") == whole
+
+
+def test_modules_and_variants_by_value(folder: Path):
+    """A parameter chooses the file of a module."""
+    for name, mass in (("hand", 1), ("hook", 2)):
+        text = (
+            f"linkforge: 1\nname: {name}\nlinks: {{palm: {{visual: {{sphere: 0.1}}, inertial: {{mass: {mass} kg}}}}}}\n"
+        )
+        (folder / f"{name}.robot.yaml").write_text(text)
+    (folder / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nparameters: {tool: hand}\nlinks: {base: {}}\n"
+        "modules: {tool: {use: $(tool).robot.yaml, parent: base}}\n"
+    )
+    assert sweep(folder, "--set", "tool=hand,hook,hok")[0] == 1
+    assert [row["robot_mass"] for row in rows(folder)] == [1, 2, None]
+
+
+def test_a_xacro_is_swept_by_its_arguments(folder: Path):
+    pytest.importorskip("xacro")
+    (folder / "arm.urdf.xacro").write_text(
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro" name="x"><xacro:arg name="mass" default="1"/>'
+        '<link name="base"><inertial><mass value="$(arg mass)"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" '
+        'iyz="0"/></inertial></link></robot>'
+    )
+    done = linkforge("sweep", "arm.urdf.xacro", "--set", "mass=1:3:3", "-o", "out", "--jobs", "1", cwd=folder)
+    assert done.returncode == 0, done.stderr
+    assert [(row["mass"], row["robot_mass"]) for row in rows(folder)] == [(1, 1), (2, 2), (3, 3)]
+
+
+def test_diagnostics_count_robots_by_message(folder: Path):
+    """A warning of every robot is one line."""
+    (folder / "arm.robot.yaml").write_text(
+        ARM.replace("sphere: 0.02", "mesh: hand.stl").replace(
+            "{mass: 0.1 kg}", "{mass: 0.1 kg, inertia: {ixx: 1e-3, iyy: 1e-3, izz: 1e-3}}"
+        )
+    )
+    code, text = sweep(folder, "--set", "reach=1m:2m:5")
+    assert code == 0
+    assert any(line.startswith("warning in 5 robots, such as 000000") for line in text.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--seed", "3", "--set", "reach=1,2"], "--seed is for --sample; add --sample N, or leave it out"),
+        (["--sample", "0"], "argument --sample: takes a whole number from 1, found '0'"),
+        (["--set", "reach=1,2", "--format", "urd"], "--format: there is no format 'urd'; did you mean 'urdf'?"),
+        (
+            ["--set", "reach=1,2", "--variant", "sim", "--variant", "rel"],
+            "there is no variant 'rel'; did you mean 'real'?",
+        ),
+        (["--sample", "9", "--values", "x.csv"], "--sample draws values and --values lists them; use one of them"),
+        (["--values", "x.csv"], "--values x.csv: No such file or directory"),
+        (
+            ["--set", "reach=1,2", "--tls-ca", "x"],
+            "--tls-ca, --tls-cert and --tls-key are for --scheduler; leave them out",
+        ),
+    ],
+)
+def test_a_wrong_command_is_refused(folder: Path, words: list[str], message: str):
+    code, text = sweep(folder, *words)
+    assert code == 2
+    assert message in text
+    assert not (folder / "out").exists()
+
+
+def test_numbers_of_the_table_are_finite_or_missing(folder: Path):
+    sweep(folder, "--set", "reach=0.4m,1m")
+    assert all(math.isfinite(value) for row in rows(folder) for value in row.values() if isinstance(value, float))
