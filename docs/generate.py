@@ -244,10 +244,10 @@ def _bounds() -> str:
     }
     shared = {limit.counted.replace("'for'", "`for`"): limit.most for limit in Limit}
     shared["triangles of one of these meshes"] = MAX_TRIANGLES
-    told = {"errors that are told, and warnings": MAX_KEPT, "errors that are found": MAX_REPORTED}
-    told |= {"warnings and notes that are counted beyond those": MAX_COUNTED}
-    told |= {"diagnostics that the command shows as text": MOST_SHOWN}
-    bounds = {**shared, **bounds, **told}
+    reported = {"errors that are reported, and warnings": MAX_KEPT, "errors that are found": MAX_REPORTED}
+    reported |= {"warnings and notes that are counted beyond those": MAX_COUNTED}
+    reported |= {"diagnostics that the command shows as text": MOST_SHOWN}
+    bounds = {**shared, **bounds, **reported}
     rows = [[what, f"{most:,}" if isinstance(most, int) else most] for what, most in bounds.items()]
     return _table(("what", "at most"), rows)
 
