@@ -64,4 +64,4 @@ def matcher_file() -> Path:
 
 
 def _packed() -> Path:
-    return Path(__file__).parent / "_data"
+    return Path(__file__).resolve().parent / "_data"  # colcon links the package into its build folder

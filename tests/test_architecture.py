@@ -210,8 +210,9 @@ def test_files_in_the_guide_exist():
         assert any((folder / name).exists() for folder in folders), name
 
 
-# The layout that the project prescribes, and further folders.
+# The layout that the project prescribes, what colcon reads, and further folders.
 TOP_LEVEL = "pyproject.toml linkforge_compile schemas templates tests examples README.md LICENSE CHANGELOG.md"
+COLCON = "package.xml setup.py"
 FURTHER = "benchmarks cmake docs editors"
 
 
@@ -220,4 +221,4 @@ def test_nothing_else_is_at_the_top_level():
         pytest.skip("not a checkout of git")
     kept = subprocess.run(["git", "ls-files", "-z"], cwd=PACKAGE.parent, capture_output=True, text=True, check=True)
     names = {path.split("/")[0] for path in kept.stdout.split("\0") if path and not path.startswith(".")}
-    assert names == {*TOP_LEVEL.split(), *FURTHER.split()}
+    assert names == {*TOP_LEVEL.split(), *COLCON.split(), *FURTHER.split()}
