@@ -19,33 +19,65 @@ if TYPE_CHECKING:
 
     from linkforge_compile.cli.options import Parser
 
-COMMANDS = {
-    "init": "create a folder for a new robot, with a first spec and files for editors, git and builds",
-    "compile": "compile a spec to URDF, SRDF and other formats",
-    "watch": "compile a spec, and again whenever one of its files changes",
-    "check": "report all errors and warnings of specs, without writing anything",
-    "format": "format the white space of specs, and nothing else",
-    "params": "list the parameters and variants of a spec",
-    "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
-    "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
-    "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
-    "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
-    "info": "print the figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
-    "view": "show a robot in the browser, live, or write a page or a picture of it",
-    "diff": "compare two robots, specs or URDFs",
-    "where": "find what in a spec wrote a line of an output",
-    "sweep": "compile one spec with many values: grids, random samples, tables; on all processors or a cluster",
-    "collisions": "find the pairs of links that need no check for collisions, by sampling",
-    "import": "convert an existing URDF to a spec",
-    "migrate": "translate a xacro to specs: a module for each macro, proved to be the same robot",
-    "schema": "print the JSON Schema of specs, for editors",
-    "formats": "list the output formats, with what each keeps and loses of a robot",
-    "deps": "list the files from which a robot is compiled",
-    "lsp": "start the language server, as editors do",
-    "matcher": "print the problem matcher for GitHub Actions",
-    "completion": "print the script with which bash, zsh or fish complete these commands",
+COMMANDS_BY_TASK = {
+    "start": {
+        "init": "create a folder for a new robot, with a first spec and files for editors, git and builds",
+        "compile": "compile a spec to URDF, SRDF and other formats",
+        "check": "report all errors and warnings of specs, without writing anything",
+        "view": "show a robot in the browser, live, or write a page or a picture of it",
+    },
+    "write a spec": {
+        "watch": "compile a spec, and again whenever one of its files changes",
+        "format": "format the white space of specs, and nothing else",
+        "params": "list the parameters and variants of a spec",
+        "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
+        "where": "find what in a spec wrote a line of an output",
+        "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
+        "collisions": "find the pairs of links that need no check for collisions, by sampling",
+    },
+    "look at a robot": {
+        "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
+        "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
+        "info": "print the figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
+        "sweep": "compile one spec with many values: grids, random samples, tables; on all processors or a cluster",
+    },
+    "existing robots": {
+        "import": "convert an existing URDF to a spec",
+        "migrate": "translate a xacro to specs: a module for each macro, proved to be the same robot",
+        "diff": "compare two robots, specs or URDFs",
+    },
+    "builds": {
+        "formats": "list the output formats, with what each keeps and loses of a robot",
+        "deps": "list the files from which a robot is compiled",
+        "matcher": "print the problem matcher for GitHub Actions",
+    },
+    "editors and shells": {
+        "schema": "print the JSON Schema of specs, for editors",
+        "lsp": "start the language server, as editors do",
+        "completion": "print the script with which bash, zsh or fish complete these commands",
+    },
 }
+"""The commands with their summaries, as `linkforge --help` groups them."""
+
+COMMANDS = {name: summary for commands in COMMANDS_BY_TASK.values() for name, summary in commands.items()}
 """Each command with its summary; the module of the same name in `cli.commands` has `add_arguments` and `run`."""
+
+_SUMMARY = "a declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out"
+
+_FIRST_STEPS = """\
+Start with one of
+  linkforge init my_arm                            a folder for a new robot, with a first spec
+  linkforge import arm.urdf -o arm.robot.yaml      the spec of an existing URDF
+  linkforge migrate arm.urdf.xacro -o robots/      the specs of an existing xacro
+
+and then
+  linkforge check arm.robot.yaml                   report its errors and warnings
+  linkforge view arm.robot.yaml                    show it in the browser, and follow each change
+  linkforge compile arm.robot.yaml -o build/       write its URDF, and its SRDF if it has one
+
+`linkforge --help` lists all commands; `linkforge COMMAND --help` describes one, with examples. The documentation is in
+the folder docs of the sources, beginning with docs/tutorial.md; `linkforge explain CODE` explains a diagnostic.
+"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -119,27 +151,25 @@ def _parser_of(command: str) -> Parser:
 
 
 def _run_without_command(words: list[str]) -> int:
-    """Handle options such as `--help`, and report an unknown command."""
-    summary = "a declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out"
+    """Say what to do first, handle options such as `--help`, or report an unknown command."""
+    if not words:
+        print(f"linkforge {__version__}: {_SUMMARY}.\n\n{_FIRST_STEPS}", end="")
+        return OK
     version = f"linkforge {__version__}"
     parser = _make_parser(
-        "linkforge", summary, lambda it: it.add_argument("-V", "--version", action="version", version=version)
+        "linkforge", _SUMMARY, lambda it: it.add_argument("-V", "--version", action="version", version=version)
     )
     parser.usage = "linkforge [-h] [-V] COMMAND ..."
     width = max(map(len, COMMANDS))
-    parser.epilog = "\n".join(
-        (
-            "commands:",
-            *(f"  {name:{width}}  {summary}" for name, summary in COMMANDS.items()),
-            "",
-            "`linkforge COMMAND --help` describes a command. Exit codes: 0 clean, 1 errors in the spec, 2 wrong usage,",
-            "70 a bug in linkforge.",
-        )
-    )
+    lines = []
+    for task, commands in COMMANDS_BY_TASK.items():
+        lines += [f"{task}:", *(f"  {name:{width}}  {summary}" for name, summary in commands.items()), ""]
+    lines += [
+        "`linkforge COMMAND --help` describes a command. Exit codes: 0 clean, 1 errors in the spec, 2 wrong usage,",
+        "70 a bug in linkforge.",
+    ]
+    parser.epilog = "\n".join(lines)
     parser.parse_known_args(words)
-    if not words:
-        parser.print_help(sys.stderr)
-        return WRONG_USAGE
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
     return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], COMMANDS)}")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.cli.main import COMMANDS, main
+from linkforge_compile.cli.main import COMMANDS, COMMANDS_BY_TASK, main
 from linkforge_compile.formats import declared_options
 from tests.cli.in_process import linkforge
 
@@ -45,8 +45,33 @@ def test_an_abbreviated_option_is_refused(tmp_path: Path, words: tuple[str, ...]
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_help_of_every_command_has_an_example_of_it(command: str, tmp_path: Path):
-    _, _, after_usage = linkforge(command, "--help", cwd=tmp_path).stdout.partition("show this help message and exit")
-    assert f"  linkforge {command}" in after_usage
+    _, _, examples = linkforge(command, "--help", cwd=tmp_path).stdout.partition("\nexamples:\n")
+    assert any(f"{line} ".startswith(f"  linkforge {command} ") for line in examples.splitlines())
+
+
+def test_linkforge_alone_says_what_to_do_first(tmp_path: Path):
+    run = linkforge(cwd=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    steps = [line.split()[1] for line in run.stdout.splitlines() if line.startswith("  linkforge ")]
+    assert steps == ["init", "import", "migrate", "check", "view", "compile"]
+    assert "linkforge COMMAND --help" in run.stdout
+
+
+def test_the_first_steps_work_as_they_are_printed(tmp_path: Path):
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    lines = [line.split() for line in linkforge(cwd=tmp_path).stdout.splitlines() if line.startswith("  linkforge ")]
+    first = {words[1]: words[1 : 3 if words[1] in ("init", "check") else 5] for words in lines}
+    for name in ("init", "import", "check", "compile"):
+        run = linkforge(*first[name], cwd=tmp_path)
+        assert run.returncode == 0, run.stderr
+    assert (tmp_path / "build" / "arm.urdf").exists()
+
+
+def test_the_help_lists_every_command_once_by_task(tmp_path: Path):
+    text = linkforge("--help", cwd=tmp_path).stdout
+    _, _, listed = text.partition("show program's version number and exit\n")
+    assert [line.split()[0] for line in listed.splitlines() if line.startswith("  ")] == list(COMMANDS)
+    assert [line for line in listed.splitlines() if line.endswith(":")] == [f"{task}:" for task in COMMANDS_BY_TASK]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only where the names of files are bytes")

@@ -13,6 +13,9 @@ _EXAMPLES = """\
 A shell then completes commands, options and their values, specs, NAME:=VALUE with the parameters of the spec on the
 line, --variant with its variants, and the paths and codes of `explain`.
 
+examples:
+  linkforge completion bash > linkforge.bash    the script, in a file
+
 once, for every new shell:
   bash, with its package bash-completion:
     mkdir -p ~/.local/share/bash-completion/completions
