@@ -23,6 +23,9 @@ _IN_FLIGHT = 3
 _RETRIES = 10
 """How many workers may be lost with one chunk before it is given up."""
 
+CONNECTING = 10.0
+"""How long a scheduler may take to answer [s]."""
+
 _WAITING_FOR_WORKERS = 30.0
 """How long a cluster may have no worker [s]."""
 
@@ -65,12 +68,14 @@ def cluster(place: Place) -> Iterator[Any]:
 
     with dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES}):
         try:
-            # Only this machine can connect, and no server of pages is started.
+            # Only this user can connect, by a certificate that lives as long as the cluster, and only from this machine.
             local = library.LocalCluster(
                 n_workers=place.jobs,
                 threads_per_worker=1,
                 host="127.0.0.1",
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
+                security=library.Security.temporary(),
                 silence_logs=logging.CRITICAL,
             )
         except RuntimeError as error:
@@ -87,7 +92,7 @@ def _connected(address: str, security: Mapping[str, str]) -> Any:
 
     try:
         tls = library.Security(require_encryption=True, **security) if security else None
-        client = library.Client(address, set_as_default=False, security=tls, timeout="10s")
+        client = library.Client(address, set_as_default=False, security=tls, timeout=CONNECTING)
     except (OSError, ValueError, ImportError, TypeError, RuntimeError) as error:
         raise SweepError(f"there is no scheduler at '{address}': {error}") from error
     try:

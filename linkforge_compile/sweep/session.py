@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from linkforge_compile.overview.figures import mesh_files
 from linkforge_compile.sweep.bundle import Bundle, add_files, changed_files
@@ -84,14 +84,19 @@ def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Ite
     if place.is_here:
         yield from run_here(plan.request, chunks, plan.points_of)
         return
-    judge = _Judge(plan, files.blobs)
     with cluster(place._replace(jobs=min(place.jobs, len(chunks)))) as client:
-        work = Cluster(client, plan.request, files, judge.grow)
-        for chunk, made in work.run(chunks, plan.points_of):
-            yield chunk, [judge.final(one) for one in made]
+        yield from results_of(plan, files, client, chunks)
 
 
-class _Judge:
+def results_of(plan: Plan, files: Files, client: Any, chunks: Iterable[Chunk]) -> Iterator[tuple[Chunk, list[Made]]]:
+    """Yield what the workers of a client make of chunks, in the order in which they are done."""
+    judge = Judge(plan, files.blobs)
+    work = Cluster(client, plan.request, files, judge.grow)
+    for chunk, made in work.run(chunks, plan.points_of):
+        yield chunk, [judge.final(one) for one in made]
+
+
+class Judge:
     """Decides whether what a worker reports about files is true, by compiling the point here, where all files are.
 
     What is true of one point is believed of others.

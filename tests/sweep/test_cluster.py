@@ -1,0 +1,146 @@
+"""Sweeps on processes of Dask, which see the client's files only as it sends them."""
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from linkforge_compile.sweep import SweepError, run, scheduler
+from linkforge_compile.sweep.bundle import Bundle, Tree, add_files
+from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.plan import Choice, Plan, plan_of
+from linkforge_compile.sweep.points import Point
+from linkforge_compile.sweep.scheduler import cluster
+from linkforge_compile.sweep.session import collect_files, results_of
+from linkforge_compile.sweep.store import Chunk, chunks_of
+from linkforge_compile.sweep.work import Made, Request, make_all
+from tests.meshes import block
+from tests.sweep.specs import write_arm
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[Any]:
+    """Two processes of Dask."""
+    with cluster(Place(2)) as connected:
+        yield connected
+
+
+def results(plan: Plan, client: Any) -> Iterator[tuple[Chunk, list[Made]]]:
+    """Yield what the processes make of the chunks of a plan."""
+    return results_of(plan, collect_files(plan), client, chunks_of(plan.size, plan.chunk))
+
+
+def rows(made: list[tuple[Chunk, list[Made]]]) -> list[dict[str, object]]:
+    return [one.row for _, part in sorted(made) for one in part]
+
+
+def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path):
+    """One of two is killed while both work; what it was computing is computed by the other, or by its successor."""
+    plan = plan_of(Request(str(write_arm(tmp_path)), "arm"), Choice(sample=120, seed=4, chunk=5))
+    workers = set(client.run(os.getpid).values())
+    assert len(workers) == 2
+    made: list[tuple[Chunk, list[Made]]] = []
+    for number, (chunk, part) in enumerate(results(plan, client)):
+        made.append((chunk, part))
+        if number == 3:
+            os.kill(min(workers), signal.SIGKILL)
+    assert [chunk for chunk, _ in sorted(made)] == list(chunks_of(120, 5))
+    undisturbed = make_all(plan.request, plan.points_of(Chunk(0, 120)))
+    assert rows(made) == [one.row for one in undisturbed]
+    assert [one.files for _, part in sorted(made) for one in part] == [one.files for one in undisturbed]
+    assert min(workers) not in client.run(os.getpid).values()
+
+
+def write_family(folder: Path) -> Path:
+    """Write an arm whose parameter chooses its tool in another package, with a mesh and a table of numbers."""
+    package = folder / "tools"
+    (package / "meshes").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>tools</name></package>")
+    (folder / "arms/data").mkdir(parents=True)
+    (folder / "arms/package.xml").write_text("<package><name>arms</name></package>")
+    for size, tool in enumerate(("hand", "hook"), 1):
+        block(0.1 * size, 0.1, 0.1).export(package / f"meshes/{tool}.stl")
+        (package / f"{tool}.robot.yaml").write_text(
+            f"linkforge: 1\nname: {tool}\nlinks:\n  palm:\n    visual: {{mesh: package://tools/meshes/{tool}.stl}}\n"
+            "    collision: visual\n    inertial: {density: 1000 kg/m^3}\n"
+        )
+        (folder / f"arms/data/{tool}.yaml").write_text(f"length: {size} m\n")
+    spec = folder / "arms/arm.robot.yaml"
+    spec.write_text(
+        "linkforge: 1\nname: arm\nparameters: {tool: hand}\ndata: {numbers: data/$(tool).yaml}\nlinks: {base: {}}\n"
+        "modules: {tool: {use: 'package://tools/$(tool).robot.yaml', parent: base, "
+        "origin: [0, 0, $(numbers.length)]}}\n"
+    )
+    return spec
+
+
+def test_workers_get_the_files_that_a_value_leads_to(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """What is compiled first reads the files of one tool only; a third tool exists nowhere."""
+    spec = write_family(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    request = Request(str(spec.relative_to(tmp_path)), "arm", packages={"tools": str(tmp_path / "tools")})
+    plan = plan_of(request, Choice(("tool=hand,hook,hok",), chunk=1))
+    made = dict(results(plan, client))
+    here = make_all(plan.request, plan.points_of(Chunk(0, 3)))
+    assert rows(list(made.items())) == [one.row for one in here]
+    assert [bool(one.row["errors"]) for one in here] == [False, False, True]
+    assert "hook.robot.yaml" in str(here[2].row["diagnostics"])
+
+
+def test_a_tree_lies_elsewhere_and_nothing_else_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """The client's folder is gone before the tree is compiled."""
+    spec = write_family(tmp_path / "client")
+    monkeypatch.chdir(tmp_path / "client")
+    request = Request("arms/arm.robot.yaml", "arm", packages={"tools": str(tmp_path / "client/tools")})
+    plan = plan_of(request, Choice(("tool=hand,hand",)))
+    here = make_all(plan.request, plan.points_of(Chunk(0, 2)))
+    files = collect_files(plan)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "client").rename(tmp_path / "gone")
+    tree = Tree(tmp_path / "tree", files.bundle, files.blobs)
+    there = make_all(plan.request, plan.points_of(Chunk(0, 2)), tree)
+    assert [(one.row, one.files) for one in there] == [(one.row, one.files) for one in here]
+    assert Path.cwd() == tmp_path
+    assert not spec.exists()
+
+
+def test_files_travel_by_their_digest(tmp_path: Path):
+    path, blobs = tmp_path / "a.yaml", dict[str, bytes]()
+    path.write_text("a: 1\n")
+    bundle = add_files(Bundle(str(tmp_path), {}), [path, tmp_path / "none.yaml"], blobs)
+    again = add_files(bundle, [path], blobs)
+    assert (len(bundle.files), again.digest, list(blobs.values())) == (1, bundle.digest, [b"a: 1\n"])
+
+
+def test_the_command_s_function_runs_on_workers(tmp_path: Path):
+    """A closure travels; what it raises is a diagnostic of one robot."""
+    factor = 2.0
+
+    def score(robot, values):
+        if values["fingers"] == 3:
+            raise ZeroDivisionError("no third finger")
+        return {"links": len(robot.links), "double": factor * values["reach"]}
+
+    spec = write_arm(tmp_path)
+    here = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score)
+    there = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score, jobs=2)
+    assert there.equals(here)
+    assert here["double"].to_pylist() == [1.0, None, 2.0, None]
+    assert here["links"].to_pylist() == [4, None, 4, None]
+    assert "the function raised ZeroDivisionError: no third finger" in here["diagnostics"].to_pylist()[1]
+
+
+def test_a_scheduler_that_is_not_there_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(scheduler, "CONNECTING", 0.5)
+    with pytest.raises(SweepError, match=r"there is no scheduler at 'tcp://127\.0\.0\.1:1'"):
+        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, scheduler="tcp://127.0.0.1:1")
+
+
+def test_points_travel_as_they_are():
+    import pickle
+
+    point = Point(3, {"reach": "0.4 m"}, "sim")
+    assert pickle.loads(pickle.dumps(point)) == point
