@@ -68,7 +68,7 @@ def cluster(place: Place) -> Iterator[Any]:
 
     with dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES}):
         try:
-            # Only this user can connect, by a certificate that lives as long as the cluster, and only from this machine.
+            # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
             local = library.LocalCluster(
                 n_workers=place.jobs,
                 threads_per_worker=1,

@@ -23,7 +23,10 @@ Progress = Callable[[int, int], None]
 
 
 class Group(NamedTuple):
-    """A message, how many robots it is about, and the first of them."""
+    """A fault of several robots: the message of the first of them, and how many they are.
+
+    Faults with one code at one place are one, because their messages have the numbers of each robot.
+    """
 
     severity: str
     text: str
@@ -135,18 +138,24 @@ def _about_files(one: Made) -> list[tuple[str, str]]:
 
 def _grouped(plan: Plan, store: Store) -> tuple[int, list[Group]]:
     """Return how many robots have errors, and the messages of all, the most frequent error first."""
-    groups: dict[tuple[str, str], Group] = {}
+    groups: dict[tuple[object, ...], Group] = {}
     failed = 0
     for rows in store.batches(("index", "errors", "warnings", "diagnostics")):
         for row in rows:
             failed += bool(row["errors"])
             if not (row["errors"] or row["warnings"]):
                 continue
-            for severity, text in dict.fromkeys(map(_message, json.loads(str(row["diagnostics"])))):
-                known = groups.get((severity, text))
-                first = known.first if known else plan.points[int(row["index"] or 0)]
-                groups[severity, text] = Group(severity, text, known.robots + 1 if known else 1, first)
+            faults = {_kind(one): one for one in reversed(json.loads(str(row["diagnostics"])))}
+            for kind, one in faults.items():
+                if known := groups.get(kind):
+                    groups[kind] = known._replace(robots=known.robots + 1)
+                else:
+                    groups[kind] = Group(*_message(one), 1, plan.points[int(row["index"] or 0)])
     return failed, sorted(groups.values(), key=lambda one: (one.severity, -one.robots, one.first.index))
+
+
+def _kind(one: Mapping[str, object]) -> tuple[object, ...]:
+    return (one["code"], one["file"], one["line"], one["column"]) if one["file"] else (one["code"], one["message"])
 
 
 def _message(one: Mapping[str, object]) -> tuple[str, str]:

@@ -103,7 +103,7 @@ def test_a_robot_with_errors_is_a_row_with_its_diagnostics(folder: Path):
     code, text = sweep(folder, "--set", "reach=1m:2m:5")
     assert code == 1
     assert text.splitlines()[-1] == "5 robots in out, 2 with errors"
-    assert text.splitlines()[0].startswith("error in 1 robot, such as 000003 (-p reach='1.75 m'): arm.robot.yaml:")
+    assert text.splitlines()[0].startswith("error in 2 robots, such as 000003 (-p reach='1.75 m'): arm.robot.yaml:")
     table = rows(folder)
     assert [row["errors"] > 0 for row in table] == [False, False, False, True, True]
     assert table[4]["robot_mass"] is None
