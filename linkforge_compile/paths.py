@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
@@ -140,6 +140,38 @@ def folders_for_xacro(name: str, declared: Mapping[str, Path], start: Path | Non
     yield from _package_folders(name, declared, _in_environment(name, roots), source)
 
 
+class SearchedPlace(NamedTuple):
+    """A place where a package is looked for: its `source`, such as a variable, and what the place is to the package."""
+
+    source: str
+    finding: str
+    folder: Path | None
+    """The folder of the package, None if it is not there."""
+
+
+def searched_places(name: str, declared: Mapping[str, Path], start: Path, roots: Roots) -> Iterator[SearchedPlace]:
+    """Yield all places where `find_package` looks for a package, in its order; the first with a folder is used."""
+    others = f"not among {', '.join(sorted(declared))}" if declared else "none declared"
+    yield SearchedPlace("declared", str(declared.get(name, others)), declared.get(name))
+    above = as_walked(start)
+    manifests = {folder: found for folder in (above, *above.parents) if (found := package_name(folder, roots))}
+    for folder, found in manifests.items():
+        is_it = found == name
+        yield SearchedPlace("folders above", f"{folder} is package {found}", folder if is_it else None)
+    if not manifests:
+        yield SearchedPlace("folders above", f"no package.xml in {above} or above", None)
+    for variable, folders in (
+        ("AMENT_PREFIX_PATH", {prefix: _in_prefix(prefix, name) for prefix in search_path("AMENT_PREFIX_PATH")}),
+        ("ROS_PACKAGE_PATH", {root: _in_root(root, name, roots) for root in search_path("ROS_PACKAGE_PATH")}),
+    ):
+        for searched, candidates in folders.items():
+            candidate = next(candidates, None)
+            missing = f"not in {searched}" if is_folder(searched) else f"{searched}, which is no folder"
+            yield SearchedPlace(variable, str(candidate or missing), candidate)
+        if not folders:
+            yield SearchedPlace(variable, "not set", None)
+
+
 def _package_folders(name: str, declared: Mapping[str, Path], *searched: Iterator[Path]) -> Iterator[Path]:
     if name in declared:
         yield declared[name]
@@ -161,19 +193,27 @@ def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Pat
 
 def _in_ament(name: str) -> Iterator[Path]:
     for prefix in search_path("AMENT_PREFIX_PATH"):
-        folder = prefix / "share" / name
-        if is_folder(folder):
-            yield folder
+        yield from _in_prefix(prefix, name)
+
+
+def _in_prefix(prefix: Path, name: str) -> Iterator[Path]:
+    folder = prefix / "share" / name
+    if is_folder(folder):
+        yield folder
 
 
 def _in_ros_1(name: str, roots: Roots) -> Iterator[Path]:
     """Yield matches of ROS_PACKAGE_PATH, which lists packages, folders of packages and folders of repositories."""
     for root in search_path("ROS_PACKAGE_PATH"):
-        if package_name(root, roots) == name:
-            yield root
-        # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
-        manifests = (root / name / "package.xml", *sorted(root.glob(f"*/{name}/package.xml")))
-        yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
+        yield from _in_root(root, name, roots)
+
+
+def _in_root(root: Path, name: str, roots: Roots) -> Iterator[Path]:
+    if package_name(root, roots) == name:
+        yield root
+    # Links in an untrusted repository may lead out of the roots; do not reveal whether they lead to a package.
+    manifests = (root / name / "package.xml", *sorted(root.glob(f"*/{name}/package.xml")))
+    yield from (path.parent for path in manifests if roots.hold(path) and is_file(path))
 
 
 def packages_in_environment() -> dict[str, Path]:
@@ -206,14 +246,14 @@ def unknown_package(
     workspace that is not sourced may hold another version. Outside the roots only --package helps, because the
     `packages` of a file cannot add roots.
     """
-    seen = _packages_around(start, roots, nearby).get(name) if start else None
+    seen = packages_around(start, roots, nearby).get(name) if start else None
     option = f"--package {name}=FOLDER"
     way = option if seen and not roots.hold(seen) else f"'packages' of this file or {option}"
-    found = [Note(f"there is one; write --package {name}={shlex.quote(_shortest(seen))}")] if seen else []
+    found = [Note(f"there is one; write --package {name}={shlex.quote(shortest(seen))}")] if seen else []
     return UNKNOWN_PACKAGE.at(where, name=name, way=way, near=near, notes=(*notes, *found))
 
 
-def _packages_around(start: Path, roots: Roots, nearby: NearbyPackages) -> Mapping[str, Path]:
+def packages_around(start: Path, roots: Roots, nearby: NearbyPackages) -> Mapping[str, Path]:
     """Return the packages near a folder, the nearest of each name."""
     if start not in nearby:
         folders = reversed([*islice(_folders_around(as_walked(start), roots), _MAX_FOLDERS)])
@@ -251,7 +291,7 @@ def _folders_in(folder: Path, roots: Roots) -> list[Path]:
     return [folder / name for name in sorted(found)]
 
 
-def _shortest(folder: Path) -> str:
+def shortest(folder: Path) -> str:
     """Return the shorter of a folder's absolute path and its path from the working directory."""
     try:
         return min(str(folder), os.path.relpath(folder), key=len)

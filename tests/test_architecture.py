@@ -21,6 +21,7 @@ MAY_IMPORT = {
     "gc_paused": "",
     "file_watcher": "",
     "_version": "",
+    "installation": "",
     "diagnostics": "source",
     "fixing": "source diagnostics roots",
     "limits": "source diagnostics",
@@ -73,7 +74,7 @@ MAY_IMPORT = {
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
         "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp "
-        "sweep resources units file_watcher _version"
+        "sweep resources units file_watcher installation _version"
     ),
 }
 

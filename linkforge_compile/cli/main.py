@@ -49,6 +49,7 @@ COMMANDS_BY_TASK = {
     "builds": {
         "formats": "list the output formats, with what each keeps and loses of a robot",
         "deps": "list the files from which a robot is compiled",
+        "doctor": "print what is installed, which packages are found, and why a package:// is not",
         "matcher": "print the problem matcher for GitHub Actions",
     },
     "editors and shells": {
