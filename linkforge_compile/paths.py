@@ -36,14 +36,6 @@ def as_typed(path: Path) -> Path:
     return path.relative_to(here) if path.is_relative_to(here) else path
 
 
-def stem_of(robot: str | Path) -> str:
-    """Return the name of a robot's file without its endings: arm for arm.robot.yaml, arm.xml and arm.urdf.xacro."""
-    name = Path(robot).name
-    for ending in (".yaml", ".yml", ".robot", ".xacro", ".xml", ".urdf"):
-        name = name.removesuffix(ending)
-    return name
-
-
 def names_in(folder: Path) -> tuple[str, ...]:
     """Return the names in a folder, as suggestions for a missing one; empty if it cannot be read."""
     try:

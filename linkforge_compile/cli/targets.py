@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile import formats
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.enumerations import alternatives
-from linkforge_compile.paths import stem_of
+from linkforge_compile.file_names import stem_of
 
 if TYPE_CHECKING:
     import argparse

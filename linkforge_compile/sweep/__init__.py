@@ -56,7 +56,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from linkforge_compile.paths import stem_of
+from linkforge_compile.file_names import stem_of
 from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
 from linkforge_compile.sweep.place import Place
 
