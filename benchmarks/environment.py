@@ -136,8 +136,8 @@ def forbid_writing(folder: Path) -> None:
             path.chmod(path.stat().st_mode & ~0o222)
 
 
-def make_environment(folder: Path, wheel: Path | None) -> None:
-    """Create an environment with a wheel (default: built from this checkout), xacro and linkforge-core."""
+def make_environment(folder: Path, wheel: Path | None, extras: str = "xacro") -> None:
+    """Create an environment with a wheel (default: built from this checkout), its extras and linkforge-core."""
     _report("making a virtual environment")
     _run_or_exit(sys.executable, "-m", "venv", str(folder))
     pip = (str(folder / "bin" / "python"), "-m", "pip", "--quiet", "--disable-pip-version-check")
@@ -147,7 +147,7 @@ def make_environment(folder: Path, wheel: Path | None) -> None:
             _run_or_exit(*pip, "wheel", "--no-deps", "--wheel-dir", built, str(ROOT))
             (wheel,) = Path(built).glob("*.whl")
         _report("installing it, xacro and linkforge-core")
-        _run_or_exit(*pip, "install", "--compile", f"{wheel.resolve()}[xacro]", _find_core_requirement())
+        _run_or_exit(*pip, "install", "--compile", f"{wheel.resolve()}[{extras}]", _find_core_requirement())
     if not find_read_only_mount(folder):
         forbid_writing(folder)
 

@@ -66,6 +66,51 @@ def prepare_rewrite(urdf: str) -> Callable[[], Turn]:
     return lambda: turn
 
 
+def prepare_sweep(spec: str, parameter: str, count: str, cache: str = "kept") -> Callable[[], Turn]:
+    """Compile and render a spec with so many values of a parameter, and make the rows of the table."""
+    from linkforge_compile.load import spec_tree
+    from linkforge_compile.sweep.plan import Choice, plan_of
+    from linkforge_compile.sweep.store import Chunk
+    from linkforge_compile.sweep.work import Request, make
+
+    plan = plan_of(Request(spec, "robot"), Choice((f"{parameter}=10:30:{count}",)))
+    points = plan.points_of(Chunk(0, plan.size))
+
+    def turn() -> None:
+        for point in points:
+            if cache == "dropped":
+                spec_tree._cache = spec_tree._TreeCache()
+            if make(plan.request, point).row["errors"]:
+                sys.exit(f"{spec} has errors")
+
+    make(plan.request, points[0])
+    return lambda: turn
+
+
+def prepare_xacro_loop(xacro_file: str, argument: str, count: str) -> Callable[[], Turn]:
+    """Expand a xacro file with so many values of an argument."""
+    import xacro
+
+    def turn() -> None:
+        for number in range(int(count)):
+            xacro.process(xacro_file, mappings={argument: str(10 + 20 * number / int(count))})
+
+    xacro.process(xacro_file)
+    return lambda: turn
+
+
+def prepare_core_loop(urdf: str, count: str) -> Callable[[], Turn]:
+    """Read, validate and write a URDF with linkforge-core so many times."""
+    turn = prepare_rewrite(urdf)()
+    turn()
+
+    def turns() -> None:
+        for _ in range(int(count)):
+            turn()
+
+    return lambda: turns
+
+
 def prepare_merge(library: str, modules: str, links: str) -> Callable[[], Turn]:
     """Merge copies of one module into a robot, with our core or that of linkforge-core."""
     core = import_module(library)
@@ -110,6 +155,10 @@ ACTIONS: dict[str, Callable[..., Callable[[], Turn]]] = {
     "compile-text": prepare_compile_text,
     "rewrite-urdf": prepare_rewrite,
     "merge": prepare_merge,
+    "sweep": prepare_sweep,
+    "sweep-uncached": partial(prepare_sweep, cache="dropped"),
+    "xacro-loop": prepare_xacro_loop,
+    "core-loop": prepare_core_loop,
 }
 
 

@@ -16,7 +16,7 @@ from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.points import Point
 from linkforge_compile.sweep.scheduler import Cluster, Files, cluster, run_here
 from linkforge_compile.sweep.store import Chunk, Store, chunks_of
-from linkforge_compile.sweep.work import ABOUT_FILES, Made, compile_point, make
+from linkforge_compile.sweep.work import ABOUT_FILES, Made, Request, compile_point, make
 
 Progress = Callable[[int, int], None]
 """Takes how many robots are done, and how many of them have errors."""
@@ -69,16 +69,15 @@ def execute(
 
 def collect_files(plan: Plan) -> Files:
     """Compile the first point, and return the files that it reads."""
-    point = plan.points_of(Chunk(0, 1))[0]
-    blobs: dict[str, bytes] = {}
-    return Files(_with_files_of(plan, point, Bundle.of_here(), blobs), blobs)
+    return files_of(plan.request, plan.points_of(Chunk(0, 1))[0], Files(Bundle.of_here(), {}))
 
 
-def _with_files_of(plan: Plan, point: Point, bundle: Bundle, blobs: dict[str, bytes]) -> Bundle:
-    """Return the bundle with all files that a point reads, and the meshes that it only names."""
-    compilation = compile_point(plan.request, point)
+def files_of(request: Request, point: Point, files: Files) -> Files:
+    """Return the files with all that a point reads, and the meshes that it only names."""
+    compilation = compile_point(request, point)
     meshes = mesh_files(compilation.robot).values() if compilation.robot else ()
-    return add_files(bundle, (*compilation.files, *(one for one in meshes if isinstance(one, Path))), blobs)
+    paths = (*compilation.files, *(one for one in meshes if isinstance(one, Path)))
+    return files._replace(bundle=add_files(files.bundle, paths, files.blobs))
 
 
 def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Iterator[tuple[Chunk, list[Made]]]:
@@ -113,7 +112,7 @@ class Judge:
         """Return the bundle with the files that a point reads here, the same one if it has them all."""
         for one in made:
             if not self._is_true(one):
-                more = _with_files_of(self._plan, one.point, bundle, self._blobs)
+                more = files_of(self._plan.request, one.point, Files(bundle, self._blobs)).bundle
                 if more.files != bundle.files:
                     return more  # may be what all others of the chunk lack
         return bundle

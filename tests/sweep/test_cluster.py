@@ -13,12 +13,15 @@ from linkforge_compile.sweep.bundle import Bundle, Tree, add_files
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
 from linkforge_compile.sweep.points import Point
-from linkforge_compile.sweep.scheduler import cluster
-from linkforge_compile.sweep.session import collect_files, results_of
+from linkforge_compile.sweep.scheduler import Files, cluster
+from linkforge_compile.sweep.session import collect_files, files_of, results_of
 from linkforge_compile.sweep.store import Chunk, chunks_of
-from linkforge_compile.sweep.work import Made, Request, make_all
+from linkforge_compile.sweep.work import Made, Request, make, make_all
+from tests.conftest import ROOT
 from tests.meshes import block
 from tests.sweep.specs import write_arm
+
+EXAMPLES = sorted((ROOT / "examples").rglob("*.robot.yaml"))
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +108,19 @@ def test_a_tree_lies_elsewhere_and_nothing_else_is_read(tmp_path: Path, monkeypa
     assert [(one.row, one.files) for one in there] == [(one.row, one.files) for one in here]
     assert Path.cwd() == tmp_path
     assert not spec.exists()
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_is_the_same_in_a_tree(example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Its modules, data, meshes and vendors' files reach the tree, and nothing names the tree."""
+    monkeypatch.chdir(example.parent)
+    request, point = Request(example.name, "robot"), Point(0, {})
+    here = make(request, point)
+    files = files_of(request, point, Files(Bundle.of_here(), {}))
+    tree = Tree(tmp_path / "tree", files.bundle, files.blobs)
+    (there,) = make_all(request, [point], tree)
+    assert (there.row, there.files) == (here.row, here.files)
+    assert here.row["errors"] == 0
 
 
 def test_files_travel_by_their_digest(tmp_path: Path):
