@@ -55,7 +55,14 @@ def test_each_action_runs_more_than_once(action: str, tmp_path: Path):
     spec, urdf = tmp_path / "chain.robot.yaml", tmp_path / "chain.urdf"
     spec.write_text(make_chain(3), "utf-8")
     urdf.write_text(render_urdf(compile_text(make_chain(3)).result()), "utf-8")
+    swept = tmp_path / "swept.robot.yaml"
+    link = "{visual: {sphere: 1}, inertial: {mass: $(n)}}"
+    swept.write_text(f"linkforge: 1\nname: a\nparameters: {{n: 1}}\nlinks: {{a: {link}}}\n", "utf-8")
     arguments = {
+        "sweep": (str(swept), "n", "2"),
+        "sweep-uncached": (str(swept), "n", "2"),
+        "xacro-loop": (str(XACRO), "safety_stiffness", "2"),
+        "core-loop": (str(urdf), "2"),
         "xacro": (str(XACRO),),
         "rewrite-urdf": (str(urdf),),
         "merge": ("linkforge_compile.core", "2", "3"),

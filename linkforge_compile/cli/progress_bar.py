@@ -26,6 +26,8 @@ class ProgressBar:
         self._is_bar = sys.stderr is not None and sys.stderr.isatty() and not arguments.quiet
         self._begin = self._last = monotonic()
         self._is_drawn = False
+        self.before = 0
+        """How many units were done before the bar began, which count for nothing in the time that is left."""
 
     def show(self, done: int, note: str = "") -> None:
         """Show that so many units are done, with a note, if the last time was long enough ago."""
@@ -33,7 +35,8 @@ class ProgressBar:
         if now - self._last < (_REDRAWN if self._is_bar else PROGRESS_INTERVAL):
             return
         self._last = now
-        left = (now - self._begin) / done * (self._total - done) if done else 0.0
+        new = done - self.before
+        left = (now - self._begin) / new * (self._total - done) if new else 0.0
         text = f"{done:,} of {self._total:,} {self._unit}, {left:.0f} s left{f', {note}' if note else ''}"
         if self._is_bar:
             filled = WIDTH * done // self._total

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -49,22 +50,37 @@ def execute(
 ) -> Summary:
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
     files = collect_files(plan)
-    done = store.begin(plan.manifest(files.bundle, packing), resume=resume)
+    with _write_errors(store.folder):
+        done = store.begin(plan.manifest(files.bundle, packing), resume=resume)
     summary = Summary(plan.size)
     if not store.is_finished:
         todo = [chunk for chunk in chunks_of(plan.size, plan.chunk) if chunk not in done]
         count, failed = plan.size - sum(chunk.end - chunk.begin for chunk in todo), 0
+        progress(count, failed)
         for chunk, made in _results(plan, files, place, todo):
-            store.add(chunk, made)
+            with _write_errors(store.folder):
+                store.add(chunk, made)
             count += len(made)
             failed += sum(bool(one.row["errors"]) for one in made)
             summary.compiled += len(made)
             progress(count, failed)
         if changed := changed_files(files.bundle):
             raise SweepError(f"'{changed[0]}' changed while the sweep ran; remove the folder, and start it again")
-        store.finish()
+        with _write_errors(store.folder):
+            store.finish()
     summary.failed, summary.groups = _grouped(plan, store)
     return summary
+
+
+@contextmanager
+def _write_errors(folder: Path) -> Iterator[None]:
+    """Turn an error of the system, such as a full disk, into a SweepError."""
+    try:
+        yield
+    except OSError as error:
+        raise SweepError(
+            f"cannot write to '{folder}': {error.strerror or error}; once it can be written, --resume goes on"
+        ) from error
 
 
 def collect_files(plan: Plan) -> Files:

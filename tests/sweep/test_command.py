@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import shutil
 import tarfile
 import zipfile
@@ -256,3 +257,19 @@ def test_a_wrong_command_is_refused(folder: Path, words: list[str], message: str
 def test_numbers_of_the_table_are_finite_or_missing(folder: Path):
     sweep(folder, "--set", "reach=0.4m,1m")
     assert all(math.isfinite(value) for row in rows(folder) for value in row.values() if isinstance(value, float))
+
+
+def test_a_folder_that_cannot_be_written_is_an_error(folder: Path):
+    (folder / "file").write_text("")
+    done = linkforge("sweep", "arm.robot.yaml", "-o", "file/out", "--jobs", "1", "--set", "reach=1,2", cwd=folder)
+    assert done.returncode == 2
+    assert "cannot write to 'file/out': Not a directory; once it can be written, --resume goes on" in done.stderr
+
+
+def test_a_long_sweep_shows_its_progress(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("linkforge_compile.cli.progress_bar.PROGRESS_INTERVAL", 0.0)
+    (folder / "arm.robot.yaml").write_text(BROKEN)
+    _, text = sweep(folder, "--set", "reach=1m:2m:6", "--where", "$(reach > 1.1)")
+    assert "\n6 of 6 points, 0 s left\n" in text
+    assert re.search(r"^3 of 5 robots, \d+ s left, 1 with errors$", text, re.MULTILINE)
+    assert text.splitlines()[-1] == "5 robots in out (1 of 6 points left out by --where), 3 with errors"

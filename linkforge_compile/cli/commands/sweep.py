@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import os
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -134,13 +137,15 @@ def _run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.sweep.session import execute
     from linkforge_compile.sweep.store import Store
 
-    plan = plan_of(_request_of(arguments), _choice_of(arguments))
+    with _points_bar(arguments) as checked:
+        plan = plan_of(_request_of(arguments), _choice_of(arguments), checked)
     packing = "none" if arguments.table_only else arguments.pack or "folders"
     folder = Path(arguments.output)
     store = Store(folder, packing, plan.request.columns, has_variants=plan.has_variants)
-    bar, begin = ProgressBar(plan.size, "robots", arguments), monotonic()
+    bar, begin, calls = ProgressBar(plan.size, "robots", arguments), monotonic(), itertools.count()
 
     def progress(done: int, failed: int) -> None:
+        bar.before = done if next(calls) == 0 else bar.before
         bar.show(done, f"{failed:,} with errors" if failed else "")
 
     try:
@@ -153,6 +158,25 @@ def _run(arguments: argparse.Namespace) -> int:
         bar.close()
     _print_summary(plan, summary, monotonic() - begin, arguments)
     return FAULTY_SPEC if summary.failed else OK
+
+
+@contextmanager
+def _points_bar(arguments: argparse.Namespace) -> Iterator[Callable[[int, int], None]]:
+    """Show how many points --where has decided on."""
+    from linkforge_compile.cli.progress_bar import ProgressBar
+
+    bars: list[ProgressBar] = []
+
+    def checked(done: int, of: int) -> None:
+        if not bars:
+            bars.append(ProgressBar(of, "points", arguments))
+        bars[0].show(done)
+
+    try:
+        yield checked
+    finally:
+        for bar in bars:
+            bar.close()
 
 
 def _request_of(arguments: argparse.Namespace) -> Request:
@@ -226,7 +250,7 @@ def _print_summary(plan: Plan, summary: Summary, seconds: float, arguments: argp
         print_line(_group_line(group))
     if len(groups) > MOST_GROUPS:
         print_line(f"and {len(groups) - MOST_GROUPS} more messages; the column `diagnostics` of the table has all")
-    rate = f", {summary.compiled / seconds:.0f} a second" if summary.compiled and seconds >= 1 else ""
+    rate = f", {summary.compiled / seconds:.0f} a second" if summary.compiled > seconds > 1 else ""
     before = summary.robots - summary.compiled
     resumed = f", {before:,} of them before" if before else ""
     left_out = len(plan.points) - plan.size
