@@ -273,12 +273,21 @@ def test_a_variant_of_the_rover_chooses_its_driver(variant: str, plugin: str):
 
 def test_a_mobile_manipulator_holds_what_its_modules_hold():
     robot = compiled(ROOT / "examples" / "09_mobile_manipulator" / "mobile_manipulator.robot.yaml")
-    rover, arm, gripper = (
+    rover, arm, gripper, *sensors = (
         compiled(ROOT / "examples" / f"{path}.robot.yaml")
-        for path in ("06_rover/rover", "02_ur5e/ur5e_arm", "09_mobile_manipulator/gripper")
+        for path in (
+            "06_rover/rover",
+            "02_ur5e/ur5e_arm",
+            "09_mobile_manipulator/gripper",
+            "parts/velodyne_vlp16",
+            "parts/realsense_d435",
+            "parts/xsens_mti300",
+        )
     )
     assert robot.root_link.name == rover.root_link.name
-    assert len(robot.links) == 1 + len(rover.links) + 2 * (len(arm.links) + len(gripper.links))
+    parts = [rover, arm, arm, gripper, gripper, *sensors]
+    assert len(robot.links) == 1 + sum(len(part.links) for part in parts)
+    assert len(robot.sensors) == sum(len(part.sensors) for part in parts)
     assert robot.degrees_of_freedom == rover.degrees_of_freedom + 2 * (
         arm.degrees_of_freedom + gripper.degrees_of_freedom
     )
