@@ -76,8 +76,9 @@ and then
   linkforge view arm.robot.yaml                    show it in the browser, and follow each change
   linkforge compile arm.robot.yaml -o build/       write its URDF, and its SRDF if it has one
 
-`linkforge --help` lists all commands; `linkforge COMMAND --help` describes one, with examples. The documentation is in
-the folder docs of the sources, beginning with docs/tutorial.md; `linkforge explain CODE` explains a diagnostic.
+`linkforge --help` lists all commands; `linkforge COMMAND --help` describes one, with examples. `linkforge doctor` tells
+what is installed, `linkforge explain CODE` what a diagnostic means. The documentation is in the folder docs of the
+sources, beginning with docs/tutorial.md.
 """
 
 
