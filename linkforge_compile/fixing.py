@@ -142,7 +142,7 @@ def _new_fault(chosen: Collection[_Candidate], before: Report, after: Report) ->
     cannot be read is not checked.
     """
     was, now = (Counter(map(_key, ungrouped(report.diagnostics))) for report in (before, after))
-    corrected = {_key(one.diagnostic) for one in chosen}
+    corrected = {_key(member) for member in ungrouped(one.diagnostic for one in chosen)}
     has_hidden = any(one.diagnostic.code.id.startswith(_SYNTAX) for one in chosen)
     written = _places_written(chosen)
     for error in ungrouped(after.diagnostics):

@@ -34,7 +34,7 @@ def group_at_places(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]
     """Return a report for an editor, which marks each place: alike diagnostics are one only if they have one place."""
     places: dict[Hashable, list[Diagnostic]] = {}
     for one in ungrouped(diagnostics):
-        places.setdefault((one.code.id, one.span), []).append(one)
+        places.setdefault((one.code.id, _place_of(one)), []).append(one)
     return tuple(one for alike in places.values() for one in group_alike(alike))
 
 
@@ -51,14 +51,19 @@ def _as_one(group: Sequence[Diagnostic]) -> Diagnostic:
     names = dict.fromkeys(one.subject for one in others if one.subject != first.subject)
     same = f"; the same for {join_names(names)}" if names else ""
     # A `for` makes many parts at one place, and so do two uses of a module.
-    by_place = {one.span: one for one in reversed(group) if one.span}
-    elsewhere = [one for one in others if one.span and by_place[one.span] is one]
-    places = [_place(one, first) for one in elsewhere[:_PLACES]]
+    by_place = {_place_of(one): one for one in reversed(group)}
+    elsewhere = [one for one in others if one.span and by_place[_place_of(one)] is one]
+    places = [_note(one, first) for one in elsewhere[:_PLACES]]
     rest = [Note(f"and {more:,} more places")] if (more := len(elsewhere) - _PLACES) > 0 else []
     return replace(first, message=f"{first.message}{same}", notes=(*first.notes, *places, *rest), members=tuple(group))
 
 
-def _place(one: Diagnostic, first: Diagnostic) -> Note:
+def _place_of(one: Diagnostic) -> Hashable:
+    """Return where a diagnostic is, equal for all specs that read the file; None for nowhere."""
+    return one.span and (one.span.file.name, one.span.start, one.span.end)
+
+
+def _note(one: Diagnostic, first: Diagnostic) -> Note:
     """Return a short note, with the whole message only if it differs from that of the first in more than the name."""
     same = first.message.replace(f"'{first.subject}'", f"'{one.subject}'")
     message = f"'{one.subject}' is here" if one.message == same else one.message

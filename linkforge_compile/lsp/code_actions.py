@@ -10,10 +10,10 @@ from lsprotocol import types
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.fix import Fix
-from linkforge_compile.diagnostics.grouping import group_at_places
 from linkforge_compile.fixing import apply_safe_fixes, is_proven
 from linkforge_compile.lsp.changes import MakeEdit, changes_of
 from linkforge_compile.lsp.convert import uri_of
+from linkforge_compile.lsp.diagnostics import report_of
 from linkforge_compile.lsp.formatting import edits_to
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
@@ -52,12 +52,9 @@ def _is_wanted(kind: str, only: Sequence[str] | None) -> bool:
 
 
 def _reported_in(document: Document) -> Iterator[Diagnostic]:
-    """Yield the diagnostics in a text, each once, except those of an older version of it."""
-    seen = set()
-    for one in (one for analysis in document.analyses for one in group_at_places(analysis.compilation.diagnostics)):
-        is_here = one.span is not None and document.holds(one.span) and one.span.file.text == document.file.text
-        if is_here and str(one) not in seen:
-            seen.add(str(one))
+    """Yield the diagnostics in a text, except those of an older version of it."""
+    for one in report_of(document.analyses):
+        if one.span is not None and document.holds(one.span) and one.span.file.text == document.file.text:
             yield one
 
 

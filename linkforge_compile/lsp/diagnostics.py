@@ -19,33 +19,29 @@ _START = types.Range(types.Position(0, 0), types.Position(0, 0))
 
 
 def diagnostics_by_uri(analyses: Mapping[Path, Analysis], columns: Columns) -> dict[str, list[types.Diagnostic]]:
-    """Return the diagnostics of several specs by the URI of their file, each once.
+    """Return the diagnostics of several specs by the URI of their file, each once, as `check` of all of them has them.
 
     One without a place is at the start of its spec.
     """
     found: defaultdict[str, list[types.Diagnostic]] = defaultdict(list)
-    for root, report in _reports(analyses).items():
-        for one in report:
-            path = one.span.file.path if one.span else None
-            found[uri_of(path or root)].append(_converted(one, root, columns))
-    return found
-
-
-def _reports(analyses: Mapping[Path, Analysis]) -> Mapping[Path, Iterable[Diagnostic]]:
-    """Return the diagnostics of each spec without those that an earlier one has."""
-    seen: set[str] = set()
-    reports: dict[Path, list[Diagnostic]] = {}
     for root, analysis in analyses.items():
-        reports[root] = []
-        for one in group_at_places(without_repeats(analysis.compilation.diagnostics)):
-            key = str(one)
-            if one.span is None or key not in seen:
-                reports[root].append(one)
-                seen.add(key)
-    return reports
+        found[uri_of(root)] += (_converted(one, columns) for one in report_of([analysis]) if _file_of(one) is None)
+    for one in report_of(analyses.values()):
+        if path := _file_of(one):
+            found[uri_of(path)].append(_converted(one, columns))
+    return {uri: listed for uri, listed in found.items() if listed}
 
 
-def _converted(one: Diagnostic, root: Path, columns: Columns) -> types.Diagnostic:
+def report_of(analyses: Iterable[Analysis]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of several specs, with those of one place that are alike as one."""
+    return group_at_places(without_repeats(one for each in analyses for one in each.compilation.diagnostics))
+
+
+def _file_of(one: Diagnostic) -> Path | None:
+    return one.span.file.path if one.span else None
+
+
+def _converted(one: Diagnostic, columns: Columns) -> types.Diagnostic:
     remarks = "".join(f"\n{note.message}" for note in one.notes if note.span is None)
     return types.Diagnostic(
         range=columns.range(one.span) if one.span and one.span.file.path else _START,

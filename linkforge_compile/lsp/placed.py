@@ -115,26 +115,26 @@ def placed_in(document: Document, start: Position, end: Position) -> Iterator[Pl
 
 def _trees(instance: Instance) -> Iterator[tuple[_Path, YamlNode, YamlScalar | None]]:
     """Yield the nodes of a file, and those of its entry of `modules` in the file around it."""
-    yield from _nodes(instance.tree, ())
+    yield from nodes_in(instance.tree)
     entry = instance.entry.node if instance.entry else None
     if isinstance(entry, YamlMap):
         for one in entry:
             # The arguments belong to the module's parameters, and overrides to what they change.
             if one.name not in ("with", "override"):
-                yield from _nodes(one.value, ("modules", instance.name, one.name), one.key)
+                yield from nodes_in(one.value, ("modules", instance.name, one.name), one.key)
 
 
 def leaves_in(tree: YamlNode) -> Iterator[tuple[_Path, YamlNode]]:
     """Yield the scalars of a tree, and what an expression made, with their paths."""
-    return ((path, node) for path, node, _ in _nodes(tree, ()) if _is_leaf(node))
+    return ((path, node) for path, node, _ in nodes_in(tree) if _is_leaf(node))
 
 
 def _is_leaf(node: YamlNode) -> bool:
     return isinstance(node, YamlScalar) or (isinstance(node.span, TracedSpan) and node.span.trace is not None)
 
 
-def _nodes(
-    node: YamlNode | None, path: _Path, key: YamlScalar | None = None
+def nodes_in(
+    node: YamlNode | None, path: _Path = (), key: YamlScalar | None = None
 ) -> Iterator[tuple[_Path, YamlNode, YamlScalar | None]]:
     """Yield the nodes in a tree with their paths and keys; not the parts of what an expression made as a whole."""
     waiting: list[tuple[_Path, YamlNode, YamlScalar | None]] = [(path, node, key)] if node is not None else []

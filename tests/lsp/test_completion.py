@@ -148,12 +148,46 @@ def test_macros_of_a_xacro_are_offered_and_their_parameters(editor: Editor, tmp_
     assert labels_at(editor, cell, entry.format("lidar\n    with: {¦}\n")) == ["radius"]
 
 
+@pytest.mark.parametrize(
+    ("marked", "offered"),
+    [
+        ("semantic: {disabled_collisions: {base: {¦}}}", "palm finger thumb"),
+        ("semantic: {enabled_collisions: {base: {¦}}}", "palm finger thumb"),
+        ("semantic: {groups: {inner: {subgroups: [¦]}}}", "rest"),
+        ("semantic: {groups: {outer: {subgroups: [¦]}}}", "inner rest"),
+        ("semantic: {group_states: {inner: {home: {¦}}}}", "curl"),
+        ("semantic: {end_effectors: {hand: {group: inner, parent_group: ¦}}}", "outer rest"),
+        ("joints: {pinch: {mimic: {joint: ¦}}}", "curl"),
+        ("joints: {curl: {mimic: {joint: ¦}}}", ""),
+    ],
+)
+def test_names_that_check_refuses_are_not_offered(editor: Editor, tmp_path: Path, marked: str, offered: str):
+    file = tmp_path / "hand.robot.yaml"
+    joint = "type: revolute, parent: palm, limits: {lower: -1, upper: 1, effort: 1, velocity: 1}, axis: x"
+    joints = [
+        "weld: {type: fixed, parent: base, child: palm}",
+        f"curl: {{{joint}, child: finger}}",
+        f"pinch: {{{joint}, child: thumb, mimic: {{joint: curl}}}}",
+    ]
+    whole = {
+        "links": "links: {base: {}, palm: {}, finger: {}, thumb: {}}",
+        "joints": f"joints: {{{', '.join(joints)}}}",
+        "semantic": "semantic: {groups: {inner: {joints: [curl]}, outer: {subgroups: [inner]}, rest: {links: [palm]}}}",
+    }
+    header = "linkforge: 1\nname: hand\n"
+    editor.open(file, header + "\n".join(whole.values()))
+    editor.diagnostics(file)
+    text = header + "\n".join({**whole, marked.partition(":")[0]: marked}.values())
+    names = ["base", "palm", "finger", "thumb", "weld", "curl", "pinch", "inner", "outer", "rest"]
+    assert [label for label in labels_at(editor, file, text) if label in names] == offered.split()
+
+
 def test_files_outside_of_what_a_spec_may_read_are_not_offered(editor: Editor, tmp_path: Path):
-    (tmp_path / "other" / "secret").mkdir(parents=True)
+    (tmp_path / "rest" / "secret").mkdir(parents=True)
     (tmp_path / "robot" / "meshes").mkdir(parents=True)
     (tmp_path / "robot" / "package.xml").write_text("<package><name>arm</name></package>")
     (tmp_path / "robot" / "meshes" / "hand.stl").write_bytes(b"")
-    (tmp_path / "robot" / "link").symlink_to(tmp_path / "other")
+    (tmp_path / "robot" / "link").symlink_to(tmp_path / "rest")
     file = tmp_path / "robot" / "arm.robot.yaml"
     text = "linkforge: 1\nname: arm\nlinks: {hand: {visual: {mesh: ¦}}}\n"
     assert labels_at(editor, file, text) == ["meshes/", "package://"]
@@ -213,11 +247,13 @@ def test_items_of_a_block_list_are_names_that_it_does_not_have(editor: Editor, t
 
 @pytest.mark.parametrize(
     ("value", "offered"),
-    [("child: ¦", "palm thumb"), ("mimic: {joint: ¦}", "knuckle"), ("type: ¦", "revolute")],
+    [("child: ¦", "palm thumb"), ("mimic: {joint: ¦}", "curl"), ("type: ¦", "revolute")],
 )
 def test_values_of_an_override_are_names_of_the_module(tmp_path: Path, value: str, offered: str):
-    joint = "knuckle: {type: continuous, parent: palm, child: thumb}"
-    links = "links: {palm: {}, thumb: {}}"
+    joint = (
+        "knuckle: {type: continuous, parent: palm, child: thumb}, curl: {type: continuous, parent: thumb, child: tip}"
+    )
+    links = "links: {palm: {}, thumb: {}, tip: {}}"
     (tmp_path / "hand.robot.yaml").write_text(f"linkforge: 1\nname: hand\n{links}\njoints: {{{joint}}}\n")
     path, use = tmp_path / "cell.robot.yaml", "use: hand.robot.yaml, parent: world"
     saved = f"linkforge: 1\nname: cell\nlinks: {{world: {{}}}}\nmodules: {{h: {{{use}}}}}\n"

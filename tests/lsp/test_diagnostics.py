@@ -5,6 +5,8 @@ from pathlib import Path
 from lsprotocol import types
 
 from linkforge_compile import check_file
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.reports import without_repeats
 from tests.lsp.editor import Editor
 
 ARM = """\
@@ -98,6 +100,25 @@ def test_a_fault_that_only_the_use_shows_is_in_the_module_with_the_use_as_relate
     assert [info.location.uri for info in fault.related_information or ()] == [cell.as_uri()]
     editor.open(cell, CELL)
     assert editor.published(arm, lambda found: not found) == []
+
+
+def test_a_fault_that_two_open_specs_share_is_reported_once_as_by_check(editor: Editor, tmp_path: Path):
+    arm, cell = tmp_path / "arm.robot.yaml", tmp_path / "cell.robot.yaml"
+    arm.write_text(ARM.replace("type: fixed", "type: revolute, limits: {effort: 1, velocity: 1}"))
+    cell.write_text(CELL)
+    expected = [((one.span.line, one.span.column), one.message) for one in check_files(arm, cell) if one.span]
+    assert any(message.endswith("; the same for 'left_elbow'") for _, message in expected)
+    editor.open(arm)
+    editor.diagnostics(arm)
+    editor.open(cell)
+    found = editor.published(arm, lambda found: "the same" in str(found))
+    assert [(place(one), one.message) for one in found] == expected
+    assert not any("is here" in info.message for one in found for info in one.related_information or ())
+
+
+def check_files(*files: Path) -> list[Diagnostic]:
+    """Return what `check` reports of several specs."""
+    return [*without_repeats(one for file in files for one in check_file(file).diagnostics)]
 
 
 def test_a_part_without_a_name_is_checked_with_the_spec_that_includes_it(editor: Editor, tmp_path: Path):

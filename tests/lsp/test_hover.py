@@ -173,6 +173,35 @@ def test_values_that_cannot_be_read_have_none_in_their_place(
     assert hidden not in found
 
 
+def test_values_that_a_wrong_argument_would_make_have_none_in_their_place(editor: Editor, cell: Path):
+    text = CELL_TEXT.replace("strength: 60 N*m", "strength: 60 kg").replace("world: {}", "wor¦ld: {}")
+    assert "joint `right_joint`" in hover(editor, cell / "cell.robot.yaml", text)
+    found = hover(editor, cell / "arm.robot.yaml", ARM_TEXT.replace("elbow", "el¦bow"))
+    left, right = (part for part in found.split("\n\n---\n\n") if "right_elbow" in part or "left_elbow" in part)
+    assert "effort 50 N*m" in left
+    assert "values are shown once the errors in it are mended" in right
+    assert "effort" not in right
+
+
+@pytest.mark.parametrize(
+    ("declared", "shown"),
+    [
+        ("{type: length, default: 4¦0 cm}", "`40 cm` = `0.4 m`"),
+        ("{type: number, default: $(5 ¦* 10)}", "`$(5 * 10)` = `50`"),
+        ("{type: length, default: 1 m, minimum: 40¦0 mm}", "`400 mm` = `0.4 m`"),
+        ("{type: length, default: 1 m, enum: [1 m, 25¦0 cm]}", "`250 cm` = `2.5 m`"),
+    ],
+)
+def test_values_in_the_declaration_of_a_parameter_are_shown_in_si(
+    editor: Editor, cell: Path, declared: str, shown: str
+):
+    strength = "strength: {type: torque, default: 50 N*m}"
+    marked = ARM_TEXT.replace(strength, f"{strength}, mast: {declared}")
+    found = hover(editor, cell / "arm.robot.yaml", marked)
+    assert found.startswith(shown), found
+    assert shown not in hover(editor, cell / "arm.robot.yaml", ARM_TEXT.replace("default: 50", "def¦ault: 50"))
+
+
 def test_the_code_in_a_comment_leads_to_its_page(editor: Editor, cell: Path):
     marked = ARM_TEXT.replace("  tip: {}", "  tip: {}  # linkforge: ignore LF60¦04")
     found = hover(editor, cell / "arm.robot.yaml", marked)

@@ -11,6 +11,7 @@ from linkforge_compile.editor.vocabulary import Entries, entries_of, names_by_ki
 from linkforge_compile.expand import Instance
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.items import REQUIRED, Kind, Offer
+from linkforge_compile.lsp.completion.refused import refused_names
 from linkforge_compile.lsp.cursor import MARKER
 from linkforge_compile.schema.descriptions import Described, described_at
 from linkforge_compile.syntax import YamlMap, YamlScalar
@@ -41,11 +42,13 @@ def kinds_of_values(context: Context) -> tuple[str, ...]:
 
 def offer_names(context: Context) -> list[Offer]:
     """Return the names that a value here may be."""
-    kinds = kinds_of_values(context)
+    kinds, override = kinds_of_values(context), override_at(context)
+    refused = refused_names(context, override[1] if override else context.cursor.path)
     offers = [
         Offer(name, written(name, context), Kind.Reference, REQUIRED, kind, sought=written(name, context))
         for kind in kinds
         for name in names_here(context, kind)
+        if name not in refused
     ]
     return offers + _offer_states(context)
 
@@ -90,8 +93,9 @@ def keys_that_name(context: Context) -> list[tuple[str, str]]:
             entries = entries.get(str(key), ()) if isinstance(entries, Mapping) else ()
         return [] if isinstance(entries, Mapping) else [(name, "in the module") for name in entries]
     kinds = kinds_of_names(context.branches, KEYS)
-    found = [(name, kind) for kind in kinds for name in names_here(context, kind)]
     path = context.cursor.path
+    refused = refused_names(context, path)
+    found = [(name, kind) for kind in kinds for name in names_here(context, kind) if name not in refused]
     if context.robot is None or path[:2] != _STATES or len(path) != len(_STATES) + 2:
         return found
     joints = _joints_moved_by(str(path[2]), context.robot)

@@ -18,7 +18,7 @@ from linkforge_compile.analysis import Settings
 from linkforge_compile.lsp.cursor import Cursor, find_cursor
 from linkforge_compile.lsp.hover.codes import show_code
 from linkforge_compile.lsp.hover.keys import describe_key, show_key
-from linkforge_compile.lsp.hover.names import show_declared, show_name
+from linkforge_compile.lsp.hover.names import show_bound, show_declared, show_name
 from linkforge_compile.lsp.hover.parts import show_parts
 from linkforge_compile.lsp.hover.text import RULE, seen_from
 from linkforge_compile.lsp.hover.values import show_values
@@ -48,12 +48,12 @@ def hover(document: Document, position: types.Position, settings: Settings) -> t
 def _parts_of(document: Document, at: Position, cursor: Cursor, settings: Settings) -> Iterator[str]:
     if cursor.expression is not None:
         yield show_name(document, at)
-        yield show_values(document, at)
+        yield show_values(document, at) or show_bound(document, cursor, settings)
         return
     if declared := show_declared(document, cursor, settings):
         yield declared
         return
-    yield show_parts(document, at, cursor) or show_values(document, at)
+    yield show_parts(document, at, cursor) or show_values(document, at) or show_bound(document, cursor, settings)
     # What an alias inserts is described where it is used.
     yield show_key(cursor) or next((describe_key(one.path) for one in placed_at(document, at)), "")
 

@@ -14,10 +14,13 @@ from linkforge_compile.listing import ListedParameter, list_parameters, list_use
 from linkforge_compile.load import SpecFile
 from linkforge_compile.lsp.cursor import Cursor, Role
 from linkforge_compile.lsp.hover.text import MAX_SHOWN, and_more, bullets, code, code_block
+from linkforge_compile.lsp.hover.values import in_si_of
 from linkforge_compile.lsp.occurrences import COMPUTING
 from linkforge_compile.lsp.placed import FileUse, known_analyses, placed_at, uses_in, uses_of
 from linkforge_compile.lsp.workspace import Document
+from linkforge_compile.schema.shapes import node_at
 from linkforge_compile.source import Position
+from linkforge_compile.syntax import YamlScalar
 
 _NAME = re.compile(r"[^\W\d]\w*")
 _BUILT_IN = {
@@ -89,6 +92,22 @@ def show_declared(document: Document, cursor: Cursor, settings: Settings) -> str
     facts = _facts(_declared(document, name, settings)) if section == "parameters" else ""
     values = _show_uses(document, name)
     return "\n\n".join(filter(None, (what, facts, values))) if facts or values else ""
+
+
+def show_bound(document: Document, cursor: Cursor, settings: Settings) -> str:
+    """Return a value in the declaration of a parameter, as written and in SI; "" for what is in SI as written."""
+    match cursor.path:
+        case ("parameters", str(name), "default" | "minimum" | "maximum" | "enum" as key, *_) if (
+            cursor.role is not Role.KEY
+        ):
+            one = _declared(document, name, settings)
+        case _:
+            return ""
+    analysis = next(iter(known_analyses(document)), None)
+    node = node_at(analysis.spec.tree, cursor.path) if analysis and analysis.spec else None
+    written = node.text if isinstance(node, YamlScalar) else ""
+    in_si = (one.computed if one and key == "default" else "") or (in_si_of(node) if node else "")
+    return f"{code(written)} = {code(in_si)}" if written and in_si not in ("", written) else ""
 
 
 def _declared(document: Document, name: str, settings: Settings) -> ListedParameter | None:

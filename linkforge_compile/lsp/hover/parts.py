@@ -21,13 +21,13 @@ from linkforge_compile.lsp.hover.text import MAX_SHOWN, RULE, and_more, bullets,
 from linkforge_compile.lsp.hover.values import quantity_of
 from linkforge_compile.lsp.occurrence import Occurrence
 from linkforge_compile.lsp.occurrences import DECLARING, Occurrences
-from linkforge_compile.lsp.placed import uses_of
+from linkforge_compile.lsp.placed import nodes_in, uses_of
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.overview.joint_text import short
 from linkforge_compile.roots import identity
 from linkforge_compile.schema.descriptions import described_at
 from linkforge_compile.source import Position, SourceRef, Span
-from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax import YamlFault, YamlMap, YamlNode
 from linkforge_compile.units import ACCELERATION, EFFORT, JERK, POSITION, SPEED, FieldUnit
 
 _MAX_LINES = 20
@@ -88,10 +88,13 @@ def _describe(one: Occurrence, analysis: Analysis) -> str:
 
 
 def _has_error(source: SourceRef | None, analysis: Analysis) -> bool:
-    """Whether an error is in a part, so that some of its values only stand in for those that cannot be read."""
-    whole = source.node.span if source else None
+    """Whether an error is in a part or leads into it, so that some of its values only stand in for others."""
+    if source is None:
+        return False
+    whole = source.node.span
     errors = (one.span for one in analysis.compilation.diagnostics if one.severity is Severity.ERROR and one.span)
-    return whole is not None and any(
+    tree = source.node if isinstance(source.node, YamlMap) else None
+    return any(isinstance(node, YamlFault) for _, node, _ in nodes_in(tree)) or any(
         at.file.name == whole.file.name and whole.start <= at.start <= whole.end for at in errors
     )
 
