@@ -35,6 +35,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.migration.prove import Migrator
 
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_FAULTY = "xacro makes no robot"
 _COLUMNS = ("macros", "parts", "modules", "in_place", "kept", "raw", "properties", "conditions")
 
 
@@ -161,27 +162,30 @@ def _line(row: Mapping[str, Any]) -> str:
         equal = row["failed"].strip().splitlines()[-1].replace("|", "\\|")
     elif "figures" in row:
         figures = row["figures"]
-        equal = f"{figures['equal']} of {figures['combinations'] - figures['unproved']}"
+        compared = figures["combinations"] - figures["unproved"]
+        equal = f"{figures['equal']} of {compared}" if compared else _FAULTY
         cells = [str(figures[key]) for key in _COLUMNS]
         cells.append(f"{figures['lines_before']} → {figures['lines_after']}")
     else:
-        equal = "stays a xacro" if row["same"] else "no"
+        equal = "stays a xacro" if row["same"] else "no" if row["combinations"] else _FAULTY
     return f"| {row['robot']} | {equal} | {' | '.join(cells)} | {row['seconds']} |"
 
 
 def _print_totals(rows: list[dict[str, Any]]) -> None:
     total: Counter[str] = Counter()
-    for row in rows:
+    for row in (one for one in rows if one.get("combinations", True)):
         total.update(row.get("figures", {}))
         total.update({"kept_macros": row.get("defined", 0), "kept_parts": row.get("defined_parts", 0)})
-    same = sum(row["same"] and "figures" in row for row in rows)
+    robots = [row for row in rows if row.get("combinations", True)]
+    same = sum(row["same"] and "figures" in row for row in robots)
     clean = total["modules"] - total["raw_macros"]
-    print(f"\n{same} of {len(rows)} translated and equal, {total['equal']} combinations of arguments")
+    print(f"\n{same} of {len(robots)} robots translated and equal, {total['equal']} combinations of arguments")
     for words, macros in (
         ("macros with links or joints", total["parts"] + total["kept_parts"]),
         ("all macros", total["macros"] + total["kept_macros"]),
     ):
-        print(f"{clean} of {macros} {words} are modules without raw XML: {clean / max(macros, 1):.0%}")
+        shares = f"{total['modules'] / max(macros, 1):.0%}, without raw XML {clean} ({clean / max(macros, 1):.0%})"
+        print(f"{total['modules']} of {macros} {words} are modules: {shares}")
 
 
 if __name__ == "__main__":
