@@ -132,13 +132,17 @@ class Calls(MacroCalls):
 
     def _default(self, macro: Macro, parameter: str, context: Context, evaluator: Evaluator) -> Parts:
         forwarded, default = macro.defaults.get(parameter, (None, None))
-        if forwarded is not None:
-            node = evaluator.lookup(forwarded, context)
-            if node is not None:
-                return as_parts(node) or ("",)
+        node = None if forwarded is None else evaluator.lookup(forwarded, context)
+        entry = context.symbols.get(forwarded) if forwarded else None
+        test = entry.test if isinstance(entry, Value) else None
+        if node is not None and (test is None or default is None):
+            return as_parts(node) or ("",)
         if default is None and parameter not in macro.defaults:
             raise CannotTranslateError(f"a call of '{macro.name}' without '{parameter}'")
-        return evaluator.text(unquoted(default or ""), context)
+        otherwise = evaluator.text(unquoted(default or ""), context)
+        if node is None or test is None:
+            return otherwise
+        return as_parts(ast.IfExp(test=test, body=node, orelse=value_of(otherwise)))
 
     # Modules
 
@@ -236,6 +240,8 @@ class Calls(MacroCalls):
         top = context.symbols.top
         entry = found[1] if found else None
         source = entry.source if isinstance(entry, Value) else None
+        if isinstance(entry, Value) and entry.test is not None:
+            raise NotConstantError(symbols_in(entry.test))  # a module cannot have it in some cases only
         try:
             known = constant_of(node)
         except NotConstantError:

@@ -22,7 +22,10 @@ def domain_of(symbol: Symbol, given: str | None, default: str | None) -> tuple[s
         return () if given is None else (given,)
     if symbol.kind == BOOLEAN:
         values |= dict.fromkeys(("true", "false")) if base not in ("True", "False") else {"True": None, "False": None}
-    values |= dict.fromkeys(choice for choice in symbol.choices if symbol.kind != BOOLEAN)
+    else:
+        values |= dict.fromkeys(symbol.choices)
+        if len(symbol.choices) == len(values) == 1:  # without another value, the conditions have one outcome
+            values |= dict.fromkeys(f"not_{choice}" for choice in symbol.choices)
     return tuple(values)
 
 

@@ -175,6 +175,10 @@ class Evaluator(ABC):
                 data.wish, data.is_named, data.comment = name, True, data.comment or comment
             if data.wish == name:
                 return node
+        if isinstance(node, Reference) and node.symbol.role == "parameter" and file is self.robot:
+            # `<xacro:property name="model" value="$(arg model)"/>` is the parameter itself.
+            node.symbol.comment = node.symbol.comment or comment
+            return node
         known: object = UNSET
         with suppress(NotConstantError):
             known = constant_of(node)

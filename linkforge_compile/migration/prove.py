@@ -135,7 +135,8 @@ class Migrator:
         spec = self.folder / migration.main
         comparisons = prover.compare(spec, migration.names, combinations_of(migration.domains))
         figures = figures_of(migration, comparisons)
-        return Proved(migration.main, migration.files, comparisons, list(faults_of(comparisons)), figures)
+        faults = list(faults_of(comparisons))
+        return Proved(migration.main, migration.files, comparisons, faults, figures, migration.names)
 
     def _migrated(self, settled: Settled) -> Migration | CannotTranslateError:
         try:

@@ -27,7 +27,7 @@ class Lazy:
 
 @dataclass(eq=False)
 class Value:
-    """A property or parameter with a value. `is_partial` if it is only defined where `test` holds."""
+    """A property or parameter with a value; one with a `test` is defined only where that holds."""
 
     node: ast.expr
     test: ast.expr | None = None

@@ -63,7 +63,7 @@ def test_a_condition_becomes_when_and_all_its_outcomes_are_proved(tmp_path: Path
     )
     assert "camera: {when: $(camera)}" in made.robot
     assert "when: $(model != 'small')" in made.robot
-    assert len(made.proved.comparisons) == 2  # `model` is compared with its default
+    assert len(made.proved.comparisons) == 4  # `model` is compared with its default, so another value is tried
 
 
 def test_alternatives_inside_of_an_element_are_merged(tmp_path: Path):
@@ -183,3 +183,33 @@ def test_a_rotation_that_only_one_alternative_has_is_zero_in_the_other(tmp_path:
 """
     robot = migrated(tmp_path, text).robot
     assert "origin: {xyz: [0, 0, $(1 if tilted else 2)], rpy: [$(0.5 if tilted else 0), 0, 0]}" in robot
+
+
+def test_a_property_that_is_an_argument_is_the_parameter_and_its_values_are_proved(tmp_path: Path):
+    made = migrated(
+        tmp_path,
+        """
+        <xacro:arg name="model" default="large"/>
+        <xacro:property name="model" value="$(arg model)"/>
+        <link name="base">
+          <collision><geometry><sphere radius="${2.0 if model == 'large' else 1.0}"/></geometry></collision>
+        </link>
+        """,
+    )
+    assert "model_2" not in made.robot
+    assert [one.arguments for one in made.proved.comparisons] == [{"model": "large"}, {"model": "not_large"}]
+
+
+def test_a_property_that_a_condition_sets_is_forwarded_to_a_macro_under_the_condition(tmp_path: Path):
+    made = migrated(
+        tmp_path,
+        """
+        <xacro:arg name="model" default="large"/>
+        <xacro:macro name="ball" params="name radius:=^|0.1">
+          <link name="${name}"><collision><geometry><sphere radius="${radius}"/></geometry></collision></link>
+        </xacro:macro>
+        <xacro:if value="${'$(arg model)' == 'large'}"><xacro:property name="radius" value="0.2"/></xacro:if>
+        <xacro:ball name="base"/>
+        """,
+    )
+    assert "radius: $(0.2 if model == 'large' else 0.1)" in made.robot

@@ -62,9 +62,15 @@ def run(arguments: argparse.Namespace) -> int:
     migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink)
     with progress_after(f"reading {xacro}", arguments):
         proved = migrator.verify() if arguments.verify else migrator.run()
+    if unknown := next((name for name in given if name not in proved.names), None):
+        from linkforge_compile.diagnostics.suggest import did_you_mean
+
+        raise UsageError(f"{xacro} has no argument '{unknown}'{did_you_mean(unknown, proved.names)}")
     report(proved.diagnostics, arguments)
     _print(proved, arguments)
     if not proved.is_equal:
+        if not arguments.verify:
+            print_status("nothing is written", arguments)
         return FAULTY_SPEC
     if not arguments.verify:
         _write(proved, folder, arguments)
@@ -92,8 +98,9 @@ def _write(proved: Proved, folder: Path, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import write_changed
 
     contents = {folder / name: text for name, text in proved.files.items()}
-    others = [path for path, text in contents.items() if path.is_file() and path.read_text("utf-8") != text]
+    others = [str(path) for path, text in contents.items() if path.is_file() and path.read_text("utf-8") != text]
     if others and not arguments.force:
-        raise UsageError(f"'{others[0]}' exists with other content; use --force to replace it")
+        have = "has other content" if len(others) == 1 else "have other content"
+        raise UsageError(f"nothing is written: {', '.join(others)} {have}; use --force to replace it")
     write_changed(contents)
     print_status(f"wrote {', '.join(str(path) for path in contents)}", arguments)
