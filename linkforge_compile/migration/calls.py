@@ -23,6 +23,7 @@ from linkforge_compile.migration.symbols import (
     Symbol,
     UndefinedError,
     as_expression,
+    as_given,
     as_parts,
     constant,
     kind_of,
@@ -31,7 +32,7 @@ from linkforge_compile.migration.symbols import (
     symbols_in,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, elements_in, split
+from linkforge_compile.migration.template import Choice, Comment, Content, Element, FileDraft, Use, elements_in, split
 from linkforge_compile.source.xml_tree import XmlElement
 
 
@@ -104,7 +105,8 @@ class Calls(MacroCalls):
             called.content = [kept]
             return called.content
         if macro.body not in self._plan.modules or context.is_inside:
-            return called.content
+            comment = macro.comment if [one.macro.body for one in self.called].count(macro.body) == 1 else ""
+            return [*([Comment(comment, follows=False)] if comment else []), *called.content]
         return self._used(called, macros, evaluator)
 
     def _bind(self, called: Called, values: dict[str, str], scope: Table[Property], evaluator: Evaluator) -> None:
@@ -295,18 +297,18 @@ class Calls(MacroCalls):
             return as_expression((str(evaluator.path_text(symbol.value or ())),))
         module = self._by_file.get(context.file)
         if module is None:
-            return _as_given(symbol)
+            return as_given(symbol)
         key = f"$(arg {name})"
         top = context.symbols.top
         if isinstance(known := top.entries.get(key), Value):
-            return _as_given(known.node.symbol) if isinstance(known.node, Reference) else known.node
+            return as_given(known.node.symbol) if isinstance(known.node, Reference) else known.node
         taken = {one.wish for one in context.file.symbols}
         own = Symbol(name if name not in taken else f"{name}_argument", "parameter", kind=symbol.kind)
         own.choices = symbol.choices
         context.file.symbols.append(own)
         module.imports[own.wish] = lambda where, by: by.calls.argument(name, where, by)
         top.entries[key] = Value(refer(own))
-        return _as_given(own)
+        return as_given(own)
 
 
 def no_module(file: FileDraft, error: NotConstantError) -> NoModuleError:
@@ -336,13 +338,6 @@ def _mount_of(macro: Macro, content: list[Content]) -> Element | None:
         return find_attachment(content, may_be_nested=True)
     except CannotTranslateError as error:
         raise NoModuleError(macro.body, error.reason, outer=outer_parts(content)) from None
-
-
-def _as_given(symbol: Symbol) -> Reference:
-    """Return a reference to an argument that is written as its user gave it."""
-    node = refer(symbol)
-    node.is_as_given = True
-    return node
 
 
 def _looked_up(name: str, context: Context, evaluator: Evaluator) -> ast.expr:

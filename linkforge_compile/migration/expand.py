@@ -24,7 +24,7 @@ from linkforge_compile.migration.symbols import (
     symbols_in,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Comment, Content, Element, FileDraft, Text
+from linkforge_compile.migration.template import Choice, Comment, Content, Element, FileDraft, Text, Use
 from linkforge_compile.source.xml_tree import XmlComment, XmlContent, XmlElement
 
 _MOST_DEEP = 60
@@ -64,7 +64,10 @@ class Expander(Evaluator):
             else:
                 documented = self._documented
                 try:
-                    made += self._element(item, context, made)
+                    found = self._element(item, context, made)
+                    if found and isinstance(found[0], Use):
+                        found[0].comment = _comments_before(made)
+                    made += found
                 except CannotTranslateError as error:
                     error.where = error.where or item.span
                     raise

@@ -31,6 +31,20 @@ from linkforge_compile.syntax.writer import write
 
 _SECTIONS = ("materials", "links", "joints", "frames", "transmissions", "ros2_control")
 
+_ORDER = (
+    "mount",
+    "materials",
+    "links",
+    "joints",
+    "frames",
+    "modules",
+    "transmissions",
+    "ros2_control",
+    "gazebo",
+    "extra",
+)
+"""The order of the sections of a spec."""
+
 
 class FileMaker:
     """Makes the spec of one file."""
@@ -85,7 +99,9 @@ class FileMaker:
         self._comments, self._endings = _moved(read[0].comments, merger.moved)
         uses.take(sections)
         tree = {name: YamlMap(entries, where) for name, entries in sections.items() if entries}
-        made = self._assemble({**tree, **uses.sections(self._values, where), **rest}, read[0].tree, where)
+        of_uses = uses.sections(self._values, where)
+        self._comments |= uses.comments
+        made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
         text = write(made, self._comments, self._endings)
         raw = tuple(_raw_in(made))
         return Spec(f"{head}{text}", self._names, dict(self._values.used), raw)
@@ -182,14 +198,15 @@ class FileMaker:
         name = self._values.text(self._draft.robot_name or (self._draft.stem,))
         version = first.get("version")
         settle_dimensions(self._writer.placements)
-        repeated_values: dict[str, YamlNode] = {}
+        variables: dict[str, YamlNode] = {}
         if isinstance(modules := filled.get("modules"), YamlMap):
-            filled["modules"], repeated_values = repeated(modules, [*self._names.values()], where)
+            filled["modules"], variables, moved = repeated(modules, [*self._names.values()], where)
+            self._comments, _ = _moved((self._comments, {}), moved)
         declared = self._declared(where)
-        if repeated_values:
+        if variables:
             known = declared.get("variables")
             entries = known.entries if isinstance(known, YamlMap) else {}
-            declared["variables"] = YamlMap({**entries, **map_of(repeated_values, where).entries}, where)
+            declared["variables"] = YamlMap({**entries, **map_of(variables, where).entries}, where)
         used = {package: scalar(path, where) for package, path in self._packages.items()}
         head = {
             "linkforge": scalar("1", where, is_text=False),
@@ -197,18 +214,7 @@ class FileMaker:
             "version": version,
             "packages": map_of(used, where) if used else None,
         }
-        order = (
-            "mount",
-            "materials",
-            "links",
-            "joints",
-            "frames",
-            "modules",
-            "transmissions",
-            "ros2_control",
-            "gazebo",
-        )
-        body = {key: filled.get(key) for key in (*order, "extra")}
+        body = {key: filled.get(key) for key in _ORDER}
         return map_of({**head, **declared, **body}, where)
 
     def _without_inertia(self, link: YamlEntry) -> YamlNode:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
@@ -252,14 +253,26 @@ def _written(
     # Modules that others use come first: what they need decides what these give.
     for module in _inner_first(expander):
         try:
-            specs[module] = FileMaker(module, specs, materials, **options).spec("")
+            specs[module] = FileMaker(module, specs, materials, **options).spec(_as_comment(module.comment))
         except CannotTranslateError as error:
             raise NoModuleError(_body_of(module), error.reason) from None
         except NotConstantError as error:
             raise no_module(module, error) from None
-    specs[robot] = FileMaker(robot, specs, {}, **options).spec(head())
+    above = _as_comment("\n".join(_comments_above(robot.root)))
+    specs[robot] = FileMaker(robot, specs, {}, **options).spec(above + head())
     files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
     return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, settled.pinned, settled.inline)
+
+
+def _comments_above(root: XmlElement | None) -> list[str]:
+    """Return the comments above the root of a file, such as its license."""
+    return re.findall(r"<!--\s*(.*?)\s*-->", root.file.text[: root.begin], re.DOTALL) if root else []
+
+
+def _as_comment(text: str) -> str:
+    """Return a text as a comment that begins a spec."""
+    lines = (f"# {line.strip()}".rstrip() for line in text.splitlines())
+    return "".join(f"{line}\n" for line in lines) + "\n" * bool(text)
 
 
 def _inner_first(expander: Expander) -> list[FileDraft]:

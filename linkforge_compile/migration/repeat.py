@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from linkforge_compile.importers.spec_draft import is_same
 from linkforge_compile.migration.nodes import map_of, scalar
@@ -15,14 +16,23 @@ _MOST_FIELDS = 4
 _SECTIONS = ("parent", "origin")
 
 
-def repeated(modules: YamlMap, names: Collection[str], where: Span) -> tuple[YamlMap, dict[str, YamlNode]]:
-    """Return the entries of `modules`, with those that follow one another and are alike as one, and their variables.
+class Repeated(NamedTuple):
+    """The entries of `modules`, the variables of those with `for`, and their keys by those that they have replaced."""
+
+    modules: YamlMap
+    variables: dict[str, YamlNode]
+    moved: dict[YamlNode, YamlNode]
+
+
+def repeated(modules: YamlMap, names: Collection[str], where: Span) -> Repeated:
+    """Return the entries of `modules`, with those that follow one another and are alike as one.
 
     `names` are taken in the file.
     """
     taken = set(names)
     entries: dict[str, YamlEntry] = {}
     variables: dict[str, YamlNode] = {}
+    moved: dict[YamlNode, YamlNode] = {}
     for group in _groups(list(modules)):
         made = _one_entry(group, taken, where) if len(group) > 1 else None
         if made is None:
@@ -31,8 +41,9 @@ def repeated(modules: YamlMap, names: Collection[str], where: Span) -> tuple[Yam
         entry, name, items = made
         entries[entry.name] = entry
         variables[name] = items
+        moved[group[0].key] = entry.key
         taken.add(name)
-    return YamlMap(entries, where), variables
+    return Repeated(YamlMap(entries, where), variables, moved)
 
 
 def _groups(entries: list[YamlEntry]) -> Iterator[list[YamlEntry]]:

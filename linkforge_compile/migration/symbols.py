@@ -119,6 +119,13 @@ def refer(symbol: Symbol) -> Reference:
     return node
 
 
+def as_given(symbol: Symbol) -> Reference:
+    """Return a reference to an argument that is written as its user gave it."""
+    node = refer(symbol)
+    node.is_as_given = True
+    return node
+
+
 def symbols_in(node: ast.AST) -> frozenset[Symbol]:
     """Return the symbols that an expression names."""
     return frozenset(one.symbol for one in ast.walk(node) if isinstance(one, Reference))

@@ -58,6 +58,7 @@ class Use:
     """What the call expands to where it is."""
     attachment: Element | None = None
     """The joint among that which attaches the module."""
+    comment: str = ""
 
 
 @dataclass(eq=False)

@@ -51,6 +51,8 @@ class Uses:
         self._uses: list[tuple[Use | Kept, tuple[ast.expr, ...]]] = []
         self._carried: dict[str, YamlMap] = {}
         self._mount: YamlEntry | None = None
+        self.comments: dict[YamlNode, str] = {}
+        """The comments above entries of `modules`, by their keys."""
         self.content = self._without_uses(draft.content, ())
 
     def _without_uses(self, content: list[Content], guards: tuple[ast.expr, ...]) -> list[Content]:
@@ -114,7 +116,9 @@ class Uses:
             own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, values, where)
             entries[name] = self._entry(own, guards, carried, where)
         if entries:
-            made["modules"] = map_of(entries, where)
+            made["modules"] = modules = map_of(entries, where)
+            uses = zip(modules.entries.values(), self._uses, strict=True)
+            self.comments = {entry.key: use.comment for entry, (use, _) in uses if isinstance(use, Use) and use.comment}
         return made
 
     def _entry_name(self, use: Use | Kept, taken: Mapping[str, object]) -> str:

@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
-from tests.migration.migrated import migrated
+from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.migration.prove import Migrator
+from tests.migration.migrated import migrated, write
 
 
 def test_what_is_included_is_read_with_its_comments(tmp_path: Path):
@@ -51,3 +54,29 @@ def test_an_argument_that_chooses_a_file_keeps_its_value(tmp_path: Path):
     )
     assert "kind: {type: string, default: small, enum: [small]}" in made.robot
     assert [one.code.id for one in made.proved.diagnostics] == ["LF8042"]
+
+
+def test_comments_of_files_macros_and_calls_come_along(tmp_path: Path):
+    main = write(
+        tmp_path,
+        robot="""
+        <!-- Moves the wheel. -->
+        <xacro:macro name="wheel" params="name">
+          <link name="${name}"><collision><geometry><sphere radius="1"/></geometry></collision></link>
+          <joint name="${name}_joint" type="continuous"><parent link="base"/><child link="${name}"/></joint>
+        </xacro:macro>
+        <!-- Where the battery is. -->
+        <xacro:macro name="box"><visual><geometry><box size="1 1 1"/></geometry></visual></xacro:macro>
+        <link name="base"><xacro:box/></link>
+        <!-- Wheels -->
+        <xacro:wheel name="left"/>
+        <xacro:wheel name="right"/>
+        """,
+    )
+    main.write_text(f"<!-- Copyright\n     Ada -->\n{main.read_text('utf-8')}", "utf-8")
+    proved = Migrator(main, {}, tmp_path / "specs", Settings().loader(main), Diagnostics()).run()
+    robot = proved.files["robot.robot.yaml"]
+    assert robot.startswith("# Copyright\n# Ada\n\n# linkforge migrate")
+    assert "  # Wheels\n  $(wheel.base_name):\n" in robot
+    assert "# Where the battery is.\n" in robot
+    assert proved.files["wheel.robot.yaml"].startswith("# Moves the wheel.\n\nlinkforge: 1\n")
