@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.overview.graph import ModuleBox, module_boxes
-from linkforge_compile.overview.joint_text import type_text
+from linkforge_compile.overview.joint_text import edge_text
 from linkforge_compile.overview.tree import TreeRow
 
 
@@ -35,7 +35,7 @@ def _inside(box: ModuleBox, indent: str) -> Iterator[str]:
 
 def _edge(joint: Joint) -> str:
     style = ", style=dashed" if joint.type == JointType.FIXED else ""
-    label = rf"{_quoted(joint.name)[:-1]}\n{type_text(joint)}" + '"'
+    label = rf"{_quoted(joint.name)[:-1]}\n{edge_text(joint)}" + '"'
     return f"  {_quoted(joint.parent)} -> {_quoted(joint.child)} [label={label}{style}];"
 
 

@@ -81,7 +81,7 @@ def _parameter_text(one: ListedParameter) -> str:
 
 
 def _mass_rows(mass: Mass, root: str) -> Iterator[tuple[str, str]]:
-    yield "mass", f"{short(mass.total)} kg"
+    yield "mass", f"{short(mass.total)} kg" if mass.total else "none"
     if mass.links_without:
         yield "", f"without mass: {_names(mass.links_without)}"
     if mass.centre:

@@ -28,6 +28,11 @@ def type_text(joint: Joint) -> str:
     return f"{joint.type} {axis_text(joint)}".strip()
 
 
+def edge_text(joint: Joint) -> str:
+    """Return the type of a joint with its axis and what it follows, such as `revolute y, follows knuckle * 0.8`."""
+    return f"{type_text(joint)}, {_mimic_text(joint, joint.mimic)}" if joint.mimic else type_text(joint)
+
+
 def motion_text(joint: Joint) -> str:
     """Return where a joint can be, such as `-90 to 90 deg`, or what it follows; "" for one without one position."""
     if joint.type not in SINGLE_AXIS:

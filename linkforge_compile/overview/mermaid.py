@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.overview.graph import ModuleBox, module_boxes, walk_boxes
-from linkforge_compile.overview.joint_text import type_text
+from linkforge_compile.overview.joint_text import edge_text
 from linkforge_compile.overview.tree import TreeRow
 
 _PLAIN = frozenset(" _-./,")
@@ -39,7 +39,7 @@ def _inside(
 
 def _edge(joint: Joint, nodes: Mapping[str, str]) -> str:
     arrow = "-.->" if joint.type == JointType.FIXED else "-->"
-    label = f"{_escaped(joint.name)}<br/>{_escaped(type_text(joint))}"
+    label = f"{_escaped(joint.name)}<br/>{_escaped(edge_text(joint))}"
     return f'  {nodes[joint.parent]} {arrow}|"{label}"| {nodes[joint.child]}'
 
 

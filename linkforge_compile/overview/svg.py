@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.diagnostics.terminal import width_of
 from linkforge_compile.formats.environment import render_own
 from linkforge_compile.overview.graph import ModuleRun, module_runs
-from linkforge_compile.overview.joint_text import type_text
+from linkforge_compile.overview.joint_text import edge_text
 from linkforge_compile.overview.tree import TreeRow
 
 # All sizes are in pixels.
@@ -26,7 +26,10 @@ LARGEST_INDENT = 60
 
 
 class Node(NamedTuple):
-    """A link at its left upper corner, with the line from the link above it, a path of SVG, and the joint there."""
+    """A link at its left upper corner, with the line from the link above it, a path of SVG, and the joint there.
+
+    `kind` of the joint is `fixed`, `moving`, or `following` for one with mimic.
+    """
 
     x: int
     y: int
@@ -34,7 +37,7 @@ class Node(NamedTuple):
     name: str
     joint: str
     type: str
-    is_moving: bool
+    kind: str
     is_again: bool
     elbow: str
 
@@ -102,11 +105,17 @@ def _nodes(rows: Sequence[TreeRow], tops: Sequence[int], left: int) -> Iterator[
             width_of(name) * LINK_CHARACTER + 16,
             name,
             row.joint.name if row.joint else "",
-            type_text(row.joint) if row.joint else "",
-            bool(row.joint and row.joint.type != JointType.FIXED),
+            edge_text(row.joint) if row.joint else "",
+            _kind(row.joint),
             row.is_again,
             elbow,
         )
+
+
+def _kind(joint: Joint | None) -> str:
+    if joint is None or joint.type == JointType.FIXED:
+        return "fixed"
+    return "following" if joint.mimic else "moving"
 
 
 def _box(run: ModuleRun, rows: Sequence[TreeRow], nodes: Sequence[Node]) -> Box:

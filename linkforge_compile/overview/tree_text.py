@@ -11,10 +11,13 @@ from linkforge_compile.overview.joint_text import motion_text, short, type_text
 from linkforge_compile.overview.tree import TreeRow
 
 WIDTH = 100
-"""The columns of a terminal into which the tree fits, unless names are too long [characters]."""
+"""The columns into which the tree fits where there is no terminal, unless names are too long [characters]."""
 
 MOST_INDENTED = 24
 """How many levels are indented; a deeper link has the number of its level before its name."""
+
+MOST_INDENTED_IN_LINES = 6
+"""The same in a tree without columns, which is for narrow terminals."""
 
 LONGEST_POSITION = 24
 """A longer text of a position, which names another joint, has a line of its own in a narrow tree [characters]."""
@@ -48,11 +51,15 @@ def render_links(rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored:
         yield branch.drawn(branch.width, is_colored)
 
 
-def render_tree(rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored: bool = False) -> Iterator[str]:
-    """Yield titles and a line for each link; where that is too wide, each joint has a line of its own."""
+def render_tree(
+    rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored: bool = False, width: int = WIDTH
+) -> Iterator[str]:
+    """Yield titles and a line for each link; where that is too wide, each joint has a line of its own, or two."""
     wide, narrow = (_branches(rows, lines, step) for step in (3, 2))
-    tables = (_in_columns(rows, wide), _in_columns(rows, narrow), _in_pairs(rows, narrow))
-    table = next((table for table in tables if table.width <= WIDTH), tables[-1])
+    shallow = _branches(rows, lines, 2, MOST_INDENTED_IN_LINES)
+    columns = (_in_columns(rows, wide), _in_columns(rows, narrow))
+    tables = (*columns, _in_pairs(rows, narrow), _in_lines(rows, narrow), _in_lines(rows, shallow))
+    table = next((table for table in tables if table.width <= width), tables[-1])
     return table.lines(is_colored)
 
 
@@ -75,15 +82,15 @@ class _Branch(NamedTuple):
         return text + " " * (width - self.width)
 
 
-def _branches(rows: Sequence[TreeRow], lines: Lines, step: int) -> list[_Branch]:
-    """Return the links with their lines; a level is indented by `step` columns."""
+def _branches(rows: Sequence[TreeRow], lines: Lines, step: int, most: int = MOST_INDENTED) -> list[_Branch]:
+    """Return the links with their lines; a level is indented by `step` columns, at `most` so many levels are."""
     branches: list[_Branch] = []
     followed: set[int] = set()  # the levels at which another link follows, as rows are drawn from the last one up
     for row in reversed(rows):
-        depth = min(row.depth, MOST_INDENTED)
+        depth = min(row.depth, most)
         passing = [lines.passing[:step] if level in followed else " " * step for level in range(1, depth + 1)]
         own = (lines.branch if depth in followed else lines.last)[: step - 1] + " " if depth else ""
-        level = f"({row.depth}) " if row.depth > MOST_INDENTED else ""
+        level = f"({row.depth}) " if row.depth > most else ""
         before = "".join(passing[:-1]) + own + level
         branches.append(_Branch(before, row.link, _note(row, lines), "".join(passing)))
         followed = {level for level in followed if level < depth} | {depth}
@@ -109,7 +116,8 @@ class _Table(NamedTuple):
 
     @property
     def width(self) -> int:
-        return sum(self.widths) + 2 * (len(self.titles) - 1)
+        columns = sum(self.widths) + 2 * (len(self.titles) - 1)
+        return max(columns, *(branch.width for branch, _ in self.rows))
 
     def lines(self, is_colored: bool) -> Iterator[str]:
         first, *widths = self.widths
@@ -147,6 +155,21 @@ def _in_pairs(rows: Sequence[TreeRow], branches: Sequence[_Branch]) -> _Table:
             link = branch._replace(before=branch.passing)
         found.append((link, ("", _mass_text(row))))
     return _Table(("joint, and its link below", "type", "position, mass"), found)
+
+
+def _in_lines(rows: Sequence[TreeRow], branches: Sequence[_Branch]) -> _Table:
+    """Return a table without columns: a row for each joint, its position and the link below it."""
+    found: list[tuple[_Branch, Sequence[str]]] = []
+    for row, branch in zip(rows, branches, strict=True):
+        link, mass = branch, _mass_text(row)
+        if row.joint:
+            kind, position = _motion(row.joint)
+            found.append((_Branch(branch.before, "", f"{row.joint.name}  {kind}"), ()))
+            if position:
+                found.append((_Branch(f"{branch.passing}  ", "", position), ()))
+            link = branch._replace(before=branch.passing)
+        found.append((link._replace(note=f"  {mass}{link.note}" if mass else link.note), ()))
+    return _Table(("joint, and its link below",), found)
 
 
 def _motion(joint: Joint | None) -> tuple[str, str]:

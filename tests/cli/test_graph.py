@@ -8,7 +8,7 @@ import pytest
 from lxml import etree
 
 from linkforge_compile.cli.main import main
-from linkforge_compile.core import Joint, JointType, Link, Robot
+from linkforge_compile.core import Joint, JointMimic, JointType, Link, Robot, Vector3
 from linkforge_compile.overview.dot import render_dot
 from linkforge_compile.overview.graph import order_by_module
 from linkforge_compile.overview.mermaid import render_mermaid
@@ -214,3 +214,19 @@ def test_a_spec_with_errors_has_no_graph(cell: Path):
     run = linkforge("graph", "cell.robot.yaml", "-o", "cell.svg", cwd=cell)
     assert (run.returncode, run.stdout, (cell / "cell.svg").exists()) == (1, "", False)
     assert "[LF4102]" in run.stderr
+
+
+def test_a_joint_that_follows_another_one_is_marked():
+    robot = Robot(name="r", links=[Link(name) for name in "abc"])
+    axis = Vector3(0, 0, 1)
+    robot.add_parts(
+        joints=[
+            Joint("lead", JointType.CONTINUOUS, "a", "b", axis=axis),
+            Joint("echo", JointType.CONTINUOUS, "a", "c", axis=axis, mimic=JointMimic("lead", 0.5)),
+        ]
+    )
+    rows = tree_rows(robot)
+    assert r'"a" -> "c" [label="echo\ncontinuous z, follows lead * 0.5"]' in render_dot("r", rows)
+    assert "follows lead #42; 0.5" in render_mermaid("r", rows)
+    circles = etree.fromstring(render_svg("r", rows).encode()).findall("{*}circle")
+    assert [circle.get("class") for circle in circles] == ["joint moving", "joint following"]

@@ -58,7 +58,7 @@ joints          2 revolute, 1 prismatic, 1 fixed
 freedom         2 degrees of freedom; 1 joint with mimic not counted
 mass            6.02 kg
                 without mass: carriage
-centre of mass  [0, 0, 0.0027] m in base, every joint at 0
+centre of mass  [0, 0, 0.002658] m in base, every joint at 0
 reach           at most 0.85 m, carriage from base
 size            0.2 x 0.2 x 0.87 m, every joint at 0; from [-0.1, -0.1, -0.05] to [0.1, 0.1, 0.82]
                 without 1 mesh: package 'nowhere' is not found; say where it is with `--package

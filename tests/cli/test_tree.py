@@ -155,6 +155,22 @@ EXAMPLES = ["02_ur5e/ur5e", "05_gripper/ur5e_gripper", "08_hand/hand", "09_mobil
 def test_the_examples_fit_a_terminal_of_100_columns(example: str):
     rows = tree_rows(compile_file(ROOT / f"examples/{example}.robot.yaml").result())
     assert max(map(width_of, render_tree(rows))) <= 100
+    assert max(map(width_of, render_tree(rows, width=80))) <= 80
+    # The other two have joints with names of thirty characters, which are not broken.
+    assert max(map(width_of, render_tree(rows, width=50))) <= (50 if example in {EXAMPLES[0], EXAMPLES[2]} else 66)
+
+
+def test_a_narrow_terminal_has_a_tree_without_columns():
+    rows = tree_rows(compile_file(ROOT / "examples/08_hand/hand.robot.yaml").result())
+    assert list(render_tree(rows, width=50))[:7] == [
+        "joint, and its link below",
+        "palm  0.4 kg",
+        "├ finger_1_knuckle  revolute y",
+        "│   0 to 80 deg",
+        "│ finger_1_proximal  0.01536 kg",
+        "│ └ finger_1_middle  revolute y",
+        "│     follows finger_1_knuckle * 0.8",
+    ]
 
 
 @pytest.mark.parametrize("example", EXAMPLES)

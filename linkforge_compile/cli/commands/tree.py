@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from shutil import get_terminal_size
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import (
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import json_text, write_to_stdout
     from linkforge_compile.overview.tree import cut_below, tree_document, tree_rows
-    from linkforge_compile.overview.tree_text import lines_for, render_links, render_tree
+    from linkforge_compile.overview.tree_text import WIDTH, lines_for, render_links, render_tree
 
     rows = tree_rows(compilation.robot)
     if arguments.depth is not None:
@@ -55,8 +56,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         write_to_stdout(json_text(tree_document(compilation.robot, rows)))
         return OK
-    render = render_links if arguments.links else render_tree
-    lines = render(rows, lines_for(sys.stdout.encoding), is_colored=is_colored(sys.stdout, arguments.color))
+    drawn, colored = lines_for(sys.stdout.encoding), is_colored(sys.stdout, arguments.color)
+    if arguments.links:
+        lines = render_links(rows, drawn, is_colored=colored)
+    else:
+        width = get_terminal_size().columns if sys.stdout.isatty() else WIDTH
+        lines = render_tree(rows, drawn, is_colored=colored, width=width)
     write_to_stdout("".join(f"{line}\n" for line in lines))
     return OK
 
