@@ -66,7 +66,7 @@ MAY_IMPORT = {
     ),
     "view": (
         "source diagnostics checks formats core shape_files resources compare expand listing analysis pipeline "
-        "file_watcher units"
+        "file_watcher roots units"
     ),
     "sweep": (
         "source diagnostics units limits syntax expressions core listing load expand formats overview banner roots "

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from linkforge_compile.checks.bounding import BoundingBox, BoundingVolume, ScanBudget, bounding_volume, corners_of_scene
+from linkforge_compile.core.meshes.stl import HEADER, TRIANGLE, count_triangles, cut_off, is_binary, is_text
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
@@ -23,9 +24,6 @@ from linkforge_compile.core.resolver import FileSystemResolver, IResourceResolve
 from linkforge_compile.diagnostics import UnresolvedNames
 from linkforge_compile.diagnostics.suggest import is_misspelling, nearest
 from linkforge_compile.roots import ANYWHERE, exists, identity, is_file, package_name
-
-HEADER, TRIANGLE = 84, 50
-"""The sizes of the header and of a triangle of a binary STL file [bytes]."""
 
 MAX_SAMPLES = 128
 """The number of triangles of a binary STL file that are read."""
@@ -219,11 +217,13 @@ def scan_mesh(path: Path, budget: ScanBudget) -> MeshScan:
                 return MeshScan(fault="it is empty")
             if start.startswith(LFS_POINTER):
                 return MeshScan(fault="it is a pointer of Git LFS; run 'git lfs pull'")
-            ending, count = path.suffix.lower(), int.from_bytes(start[80:], "little")
-            if ending == ".stl" and len(start) == HEADER and length == HEADER + TRIANGLE * count:
+            ending, count = path.suffix.lower(), count_triangles(start)
+            if ending == ".stl" and is_binary(start, length):
                 corners = _corners_of_triangles(stream, count)
                 return MeshScan(None, count, _finite_box(corners)) if count else MeshScan(fault="it has no triangles")
-            if ending == ".obj" or (ending == ".stl" and start.lstrip().lower().startswith(b"solid")):
+            if ending == ".stl" and (fault := cut_off(start, length)):
+                return MeshScan(fault=fault)
+            if ending == ".obj" or (ending == ".stl" and is_text(start)):
                 return MeshScan(box=_finite_box(_corners_in_text(stream, length)))
             if ending == ".dae" and length <= MAX_COLLADA_SIZE:
                 stream.seek(0)

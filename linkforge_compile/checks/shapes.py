@@ -43,12 +43,12 @@ def check_mesh_files(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
     """A mesh file exists on this machine under exactly its name, and holds a shape.
 
     RViz shows a link without its mesh, and Gazebo refuses the link. A name in other capitals is found on Windows and
-    macOS, and not on Linux. An empty file, or the pointer that Git LFS leaves where nothing was fetched, holds no
-    shape; a mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Not checked are meshes of packages that
-    this machine does not have, of schemes other than `package` and `file`, and outside of the folders that a spec may
-    make us read. A package that is not found is reported if one with a similar name, declared or above the spec, has
-    the file. Each file is reported once. The files of a missing folder are reported together, and so, after a hundred,
-    are those of an existing one.
+    macOS, and not on Linux. An empty file, the pointer that Git LFS leaves where nothing was fetched, and half of a
+    binary STL hold no shape; a mesh more than 100 m wide is in millimetres: write `scale: 0.001`. Not checked are
+    meshes of packages that this machine does not have, of schemes other than `package` and `file`, and outside of the
+    folders that a spec may make us read. A package that is not found is reported if one with a similar name, declared
+    or above the spec, has the file. Each file is reported once. The files of a missing folder are reported together,
+    and so, after a hundred, are those of an existing one.
     """
     finder = meshes.finder
     missing: dict[Path, dict[str, Mesh]] = {}

@@ -14,7 +14,7 @@ from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.targets import file_to_write
 
 if TYPE_CHECKING:
-    from linkforge_compile.compare import Difference
+    from linkforge_compile.compare import Difference, RemovedName
     from linkforge_compile.core.models.robot import Robot
 
 
@@ -33,6 +33,7 @@ def write_page(
     robots: tuple[Robot, Robot],
     labels: tuple[str, str],
     differences: Sequence[Difference],
+    removed: Sequence[RemovedName],
     arguments: argparse.Namespace,
 ) -> None:
     """Write the page to the file of -o, or to a temporary one that is opened in the browser."""
@@ -40,7 +41,7 @@ def write_page(
     from linkforge_compile.view.comparison import make_comparison
     from linkforge_compile.view.html import NoPageError, html_of
 
-    scene, files = make_comparison(*robots, labels, differences)
+    scene, files = make_comparison(*robots, labels, differences, removed)
     try:
         html = html_of(scene, files)
     except NoPageError as error:

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from linkforge_compile.compare import removed_parts
+
 if TYPE_CHECKING:
     from linkforge_compile.compare import Difference, RemovedName
 
@@ -15,7 +17,7 @@ _DEPTH = {"semantic": 3}
 
 _SIGNS = {"added": "+", "removed": "-", "renamed": ">", "moved": ">", "changed": "~"}
 
-_INTERFACE = " interface"
+BREAKING = "breaking: names that are gone, on which others may rely"
 
 
 def difference_lines(
@@ -35,20 +37,9 @@ def _removed_lines(removed: Sequence[RemovedName]) -> Iterator[str]:
     """Yield the kind and name of each removed name, and the interfaces of a joint in one line."""
     if not removed:
         return
-    yield from ("", "breaking: names that are gone, on which others may rely")
+    yield from ("", BREAKING)
     width = max(len(name.kind) for name in removed)
-    for (kind, owner, now), names in groupby(removed, key=_owner):
-        text = owner + (f", now {now}" if now else "")
-        if kind.endswith(_INTERFACE):
-            interfaces = [name.name.rpartition("/")[2] for name in names]
-            text = f"{owner}: {', '.join(interfaces)}" + (f", now of {now}" if now else "")
-        yield f"  {kind:{width}}  {text}"
-
-
-def _owner(name: RemovedName) -> tuple[str, str, str | None]:
-    if not name.kind.endswith(_INTERFACE):
-        return name.kind, name.name, name.now
-    return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None
+    yield from (f"  {kind:{width}}  {text}" for kind, text in removed_parts(removed))
 
 
 def _part_lines(part: tuple[str, ...], differences: Sequence[Difference]) -> Iterator[str]:

@@ -11,6 +11,7 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, UsageError
+from linkforge_compile.cli.not_shown import report_not_shown
 from linkforge_compile.cli.options import compile_spec, settings_of
 from linkforge_compile.cli.output import write_to_stdout
 from linkforge_compile.cli.reports import (
@@ -24,6 +25,7 @@ from linkforge_compile.cli.reports import (
 from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.watching import Watched, repeat_on_changes
 from linkforge_compile.roots import is_file
+from linkforge_compile.view.files import not_reported
 from linkforge_compile.view.html import NoPageError, html_of
 from linkforge_compile.view.server import ViewServer
 from linkforge_compile.view.session import Session, State
@@ -125,4 +127,5 @@ def _report(state: State, arguments: argparse.Namespace) -> None:
         print_status("the last robot without errors stays", arguments)
     else:
         links, joints = count(len(scene["links"]), "link"), count(len(scene["joints"]), "joint")
+        report_not_shown(not_reported(state.files.missing, state.diagnostics), arguments)
         print_status(f"shows {scene['name']}: {links}, {joints}", arguments)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import stat
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, BinaryIO, NoReturn
@@ -34,10 +36,13 @@ _POSITIONAL = "\0"
 class Parser(argparse.ArgumentParser):
     """Parses the arguments of one command; its errors cannot send control characters to a terminal."""
 
+    _words: Sequence[str] = ()
+
     def parse_words(self, words: Sequence[str]) -> argparse.Namespace:
         """Parse options and positional words in any order; what comes after `--` is positional."""
         # Python 3.11 parses intermixed words twice and forgets the `--` in between.
         end = words.index("--") if "--" in words else len(words)
+        self._words = words
         marked = [_POSITIONAL + word if word.startswith("-") and word != "-" else word for word in words[end + 1 :]]
         arguments = self.parse_intermixed_args([*words[:end], *words[end : end + 1], *marked])
         for name, value in vars(arguments).items():
@@ -49,7 +54,16 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         # The message quotes words, which a script may have taken from names of files.
-        super().error(on_one_line(message.replace(_POSITIONAL, "")))
+        super().error(on_one_line(message.replace(_POSITIONAL, "") + self._hint_at_minus(message)))
+
+    def _hint_at_minus(self, message: str) -> str:
+        """Return the way out if the value of an option is taken for an option, as it begins with a minus."""
+        if match := re.fullmatch(r"argument (?:-\w/)?(--[\w-]+): expected one argument", message):
+            option = match[1]
+            for word, value in pairwise(self._words):
+                if word == option and re.match(r"-[\d.]", value):
+                    return f"; write {option}={value}, as a minus begins an option otherwise"
+        return ""
 
 
 class StoreOnce(argparse.Action):

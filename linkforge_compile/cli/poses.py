@@ -69,8 +69,12 @@ def movable_joints(robot: Robot) -> dict[str, Joint]:
 def _joint(robot: Robot, name: str) -> Joint:
     movable = movable_joints(robot)
     if name not in movable:
-        why = "has no position of its own" if robot.has_joint(name) else "is not a joint of the robot"
-        raise UsageError(f"--pose {name}=…: '{name}' {why}{did_you_mean(name, movable)}")
+        why = f"is not a joint of the robot{did_you_mean(name, movable)}"
+        if robot.has_joint(name):
+            joint = robot.joint(name)
+            what = f"follows joint '{joint.mimic.joint}'" if joint.mimic else f"is {joint.type}"
+            why = f"{what}, and has no position of its own"
+        raise UsageError(f"--pose {name}=…: '{name}' {why}")
     return movable[name]
 
 
@@ -80,13 +84,16 @@ def _position(joint: Joint, text: str, pose: str) -> float:
     unit = POSITION.text(joint.type.motion)
     value = _number(text, unit)
     if value is None:
-        raise UsageError(f"--pose {pose}: takes a number in {unit}, or with its unit, found '{text}'")
+        what = "an angle such as 0.5 or '30 deg'" if unit == "rad" else "a length such as 0.2 or '20 cm'"
+        raise UsageError(f"--pose {pose}: joint '{joint.name}' takes {what}, found '{text}'")
     lower, upper = joint.bounds or (value, value)
     if not lower <= value <= upper:
         in_degrees = parse_quantity(text) is not None and unit == "rad"
         shown, factor = ("deg", math.degrees(1)) if in_degrees else (unit, 1.0)
         limits = " to ".join(f"{bound * factor:.6g} {shown}" for bound in (lower, upper))
-        raise UsageError(f"--pose {pose}: '{joint.name}' is from {limits}")
+        is_angle = unit == "rad" and not in_degrees and lower <= math.radians(value) <= upper
+        hint = f"; did you mean '{joint.name}={text}deg'?" if is_angle else ""
+        raise UsageError(f"--pose {pose}: joint '{joint.name}' is from {limits}{hint}")
     return value
 
 

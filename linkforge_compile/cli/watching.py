@@ -79,7 +79,13 @@ def _wait(watched: Watched) -> tuple[tuple[Path | str, ...], tuple[Path, ...]]:
 
 def _listed(names: Sequence[Path | str]) -> str:
     first, *others = names
-    return f"{first} and {len(others)} more" if others else str(first)
+    return f"{_shown(first)} and {len(others)} more" if others else _shown(first)
+
+
+def _shown(name: Path | str) -> str:
+    """Return the name of a file as seen from the working folder, if it is below that."""
+    folder = Path.cwd()
+    return str(name.relative_to(folder) if isinstance(name, Path) and name.is_relative_to(folder) else name)
 
 
 class SpecSearch:

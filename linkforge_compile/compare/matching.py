@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
+from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.compare.fields import RawElement, match_key, specs_of
@@ -40,6 +41,32 @@ class _PublicName(NamedTuple):
 
     kind: str
     name: str
+
+
+class RemovedPart(NamedTuple):
+    """Removed names in one line: that of a part with its new name, or the interfaces of one owner."""
+
+    kind: str
+    text: str
+
+
+_INTERFACE = " interface"
+
+
+def removed_parts(removed: Iterable[RemovedName]) -> Iterator[RemovedPart]:
+    """Yield the kind and name of each removed name, and the interfaces of a joint together."""
+    for (kind, owner, now), names in groupby(removed, key=_owner):
+        text = owner + (f", now {now}" if now else "")
+        if kind.endswith(_INTERFACE):
+            interfaces = [name.name.rpartition("/")[2] for name in names]
+            text = f"{owner}: {', '.join(interfaces)}" + (f", now of {now}" if now else "")
+        yield RemovedPart(kind, text)
+
+
+def _owner(name: RemovedName) -> tuple[str, str, str | None]:
+    if not name.kind.endswith(_INTERFACE):
+        return name.kind, name.name, name.now
+    return name.kind, name.name.rpartition("/")[0], name.now.rpartition("/")[0] if name.now else None
 
 
 def removed_public_names(before: Robot, after: Robot, *, semantic: bool = True) -> tuple[RemovedName, ...]:

@@ -80,7 +80,15 @@ def find_file(robot: Robot, resource: str) -> Path | None:
 
 def reason_not_found(robot: Robot, resource: str) -> str:
     """Return why a file that a robot refers to is not found, for a message."""
-    package = resource.removeprefix(_PACKAGE).partition("/")[0] if resource.startswith(_PACKAGE) else ""
+    scheme, separator, rest = resource.partition("://")
+    if separator and scheme not in {"package", "file"}:
+        is_of_web = scheme in {"http", "https"}
+        fault = "nothing is downloaded" if is_of_web else f"files of '{scheme}://' are not looked for"
+        return f"{fault}; save it next to the spec or in a package, and write that path"
+    if resource.startswith(f"{_PACKAGE}/"):
+        package = rest.lstrip("/").partition("/")[0]
+        return f"'package:///' names no package, and RViz refuses it too; write 'package://{package}/…'"
+    package = rest.partition("/")[0] if resource.startswith(_PACKAGE) else ""
     if package and find_file(robot, f"{_PACKAGE}{package}") is None:
         return f"package '{package}' is not found; say where it is with `--package {package}=FOLDER`"
     return "the file is not found"

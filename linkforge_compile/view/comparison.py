@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.compare import Difference, Kind
+from linkforge_compile.compare import Difference, Kind, RemovedName, removed_parts
 from linkforge_compile.view.files import MAX_ALL_BYTES, RobotFiles, collect_files
 from linkforge_compile.view.scene import Scene, SceneDifference, SceneLink, make_scene
 
@@ -17,12 +17,16 @@ _STRENGTH = (Kind.CHANGED, Kind.RENAMED, Kind.MOVED, Kind.ADDED, Kind.REMOVED)
 
 
 def make_comparison(
-    before: Robot, after: Robot, labels: tuple[str, str], differences: Sequence[Difference]
+    before: Robot,
+    after: Robot,
+    labels: tuple[str, str],
+    differences: Sequence[Difference],
+    removed: Sequence[RemovedName] = (),
 ) -> tuple[Scene, RobotFiles]:
     """Return the scene of two robots with the files of both.
 
-    `labels` are the names of the robots in headings, and `differences` are those of `compare`. What differs in a joint
-    is shown at its child link.
+    `labels` are the names of the robots in headings, `differences` those of `compare`, and `removed` the public names
+    that are gone. What differs in a joint is shown at its child link.
     """
     found = [_scene_difference(one, before, after) for one in differences]
     # A file of the same name may have another content.
@@ -38,6 +42,7 @@ def make_comparison(
             "before": {**scene_before, "files": {}, "missing": []},
             "labels": labels,
             "differences": found,
+            "removed": [{"kind": kind, "text": text} for kind, text in removed_parts(removed)],
             "kinds": _kinds(found),
             "links": _renamed("links", differences),
             "joints": _renamed("joints", differences),

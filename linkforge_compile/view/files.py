@@ -6,7 +6,7 @@ is listed with the reason.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from types import MappingProxyType
@@ -23,7 +23,8 @@ from linkforge_compile.view.named_files import KINDS, MESHES, TEXTURES, named_fi
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source import SourceRef
+    from linkforge_compile.diagnostics import Diagnostic
+    from linkforge_compile.source import SourceRef, Span
 
 MAX_BYTES = 128 * 1024 * 1024
 """The largest file that is shown."""
@@ -46,23 +47,32 @@ class File(NamedTuple):
     uses: Mapping[str, str] = MappingProxyType({})
 
 
+class Use(NamedTuple):
+    """The shapes that name a file: how they write it, their links, and the first place."""
+
+    resource: str
+    links: Sequence[str]
+    place: Span | None
+
+
 class MissingFile(NamedTuple):
-    """A file that is not shown, as it is written, with the reason and the links whose shapes have it."""
+    """A file that is not shown, as it is written, with the reason and the shapes that have it."""
 
     resource: str
     reason: str
-    links: Sequence[str]
-    source: SourceRef | None
+    use: Use
 
 
 class RobotFiles(NamedTuple):
     """The files of a robot by digest, the digests of those that its shapes name, and those that are missing.
 
-    `paths` are those of all files on which these depend; some may not exist.
+    `uses` has the shapes that name a file, by its digest. `paths` are those of all files on which these depend; some
+    may not exist.
     """
 
     files: Mapping[str, File] = MappingProxyType({})
     digests: Mapping[str, str] = MappingProxyType({})
+    uses: Mapping[str, Use] = MappingProxyType({})
     missing: Sequence[MissingFile] = ()
     paths: Sequence[Path] = ()
 
@@ -72,23 +82,35 @@ class _Wanted(NamedTuple):
 
     kinds: frozenset[str]
     links: dict[str, None]
-    source: SourceRef | None
+    place: Span | None
 
 
 def collect_files(robot: Robot, most: int | None = None) -> RobotFiles:
     """Read the meshes and textures of a robot, and the files that they name; `most` bytes, None for MAX_ALL_BYTES."""
-    reader, digests, missing = _Reader(robot, MAX_ALL_BYTES if most is None else most), {}, []
+    reader = _Reader(robot, MAX_ALL_BYTES if most is None else most)
+    digests, uses, missing = dict[str, str](), dict[str, Use](), list[MissingFile]()
     for resource, wanted in _wanted_files(robot).items():
+        use = Use(resource, tuple(wanted.links), wanted.place)
         try:
             digests[resource] = reader.read(resource, wanted.kinds)
+            uses.setdefault(digests[resource], use)
         except UnreadableError as error:
-            missing.append(MissingFile(resource, str(error), tuple(wanted.links), wanted.source))
-        missing += (
-            MissingFile(f"{name} in {resource}", reason, tuple(wanted.links), wanted.source)
-            for name, reason in reader.take_faults()
-        )
+            missing.append(MissingFile(resource, str(error), use))
+        missing += (MissingFile(f"{name} in {resource}", reason, use) for name, reason in reader.take_faults())
     paths = dict.fromkeys((*reader.paths, *places_of_files(robot, (*mesh_paths(robot), *texture_paths(robot)))))
-    return RobotFiles(reader.files, digests, missing, tuple(paths))
+    return RobotFiles(reader.files, digests, uses, missing, tuple(paths))
+
+
+def not_reported(missing: Iterable[MissingFile], diagnostics: Iterable[Diagnostic]) -> list[MissingFile]:
+    """Return the files that no diagnostic is about; one may be about many of a folder, and name the first of them."""
+    missing = tuple(missing)
+    places = {place for one in diagnostics for place in (one.span, *(note.span for note in one.notes))}
+    reported = {_kind_of_fault(one) for one in missing if one.use.place in places}
+    return [one for one in missing if _kind_of_fault(one) not in reported]
+
+
+def _kind_of_fault(missing: MissingFile) -> tuple[str, str]:
+    return missing.resource.rpartition("/")[0], missing.reason
 
 
 def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
@@ -96,12 +118,16 @@ def _wanted_files(robot: Robot) -> dict[str, _Wanted]:
     for link in robot.links:
         for shape in link.shapes:
             if isinstance(shape.geometry, Mesh):
-                one = wanted.setdefault(shape.geometry.resource, _Wanted(MESHES, {}, shape.geometry.source))
-                one.links[link.name] = None
+                place = _place(shape.geometry.source, "file")
+                wanted.setdefault(shape.geometry.resource, _Wanted(MESHES, {}, place)).links[link.name] = None
             if isinstance(shape, Visual) and shape.material and shape.material.texture:
-                one = wanted.setdefault(shape.material.texture, _Wanted(TEXTURES, {}, shape.material.source))
-                one.links[link.name] = None
+                place = _place(shape.material.source, "texture")
+                wanted.setdefault(shape.material.texture, _Wanted(TEXTURES, {}, place)).links[link.name] = None
     return wanted
+
+
+def _place(source: SourceRef | None, key: str) -> Span | None:
+    return source.at(key) if source else None
 
 
 class _Reader:

@@ -1,4 +1,4 @@
-"""The files that meshes and materials name: those of OBJ, MTL, COLLADA and glTF.
+"""The files that meshes and materials name: those of OBJ, MTL, COLLADA and glTF; and why a mesh cannot be read.
 
 A name is given as it is written, which is how the loaders of the page ask for it, and as the path that it is.
 """
@@ -10,6 +10,9 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 from urllib.parse import unquote
+
+from linkforge_compile.core.meshes.stl import HEADER, fault_of, is_binary
+from linkforge_compile.source.characters import UnreadableError
 
 MESHES = frozenset(("stl", "obj", "dae", "gltf", "glb", "ply"))
 TEXTURES = frozenset(("png", "jpg", "bmp", "gif", "webp", "tga"))
@@ -33,7 +36,12 @@ class NamedFile(NamedTuple):
 
 
 def named_files(kind: str, content: bytes) -> Iterator[NamedFile]:
-    """Yield each file that a file of some kind names; none of one that cannot be read."""
+    """Yield each file that a file of some kind names.
+
+    Raises:
+        UnreadableError: It is no file of its kind. Not all that is wrong with one is found.
+
+    """
     find = _FINDERS.get(kind)
     for name, kinds in dict(find(content)).items() if find else ():
         if name and "\0" not in name and not name.startswith(("data:", "http:", "https:")):
@@ -43,6 +51,9 @@ def named_files(kind: str, content: bytes) -> Iterator[NamedFile]:
             yield NamedFile(name, path.replace("\\", "/"), kinds)
 
 
+_CUT_OFF = "the file ends before its data does"
+
+_VERTEX = re.compile(rb"vertex", re.IGNORECASE)
 _LIBRARY = re.compile(rb"^mtllib[ \t]+([^\r\n]+)", re.MULTILINE)
 _MAP = re.compile(rb"^[ \t]*(?:map_\w+|bump|norm|disp)[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
 _OPTION = re.compile(r"-(?:bm\s+\S+|[so]\s+\S+\s+\S+\s+\S+)\s*")
@@ -65,9 +76,15 @@ def _in_collada(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
     parser = etree.XMLParser(target=images, resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True)
     try:
         etree.fromstring(content, parser)
-    except etree.XMLSyntaxError:
-        return
+    except etree.XMLSyntaxError as error:
+        raise UnreadableError(_xml_fault(error, content)) from error
     yield from ((name, TEXTURES) for name in images.names)
+
+
+def _xml_fault(error: SyntaxError, content: bytes) -> str:
+    line, rest = error.lineno or 0, content.splitlines()
+    is_at_end = line >= len(rest) and (error.offset or 0) >= len(rest[-1].decode("utf-8", "replace"))
+    return _CUT_OFF if is_at_end else f"it is not well-formed XML at line {line}"
 
 
 class _Images:
@@ -110,8 +127,11 @@ def _in_gltf(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
         return
     try:
         document = json.loads(content)
-    except (ValueError, RecursionError):
-        return
+    except json.JSONDecodeError as error:
+        is_cut_off = error.msg.startswith("Unterminated") or not error.doc[error.pos :].strip()
+        raise UnreadableError(_CUT_OFF if is_cut_off else f"it is not JSON at line {error.lineno}") from error
+    except (ValueError, RecursionError) as error:
+        raise UnreadableError("it is not JSON in UTF-8") from error
     for key, kinds in (("buffers", _BUFFERS), ("images", TEXTURES)):
         entries = document.get(key) if isinstance(document, dict) else None
         for entry in entries if isinstance(entries, list) else ():
@@ -121,8 +141,29 @@ def _in_gltf(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
 
 def _in_glb(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
     """The first chunk of a binary glTF is its JSON, after 12 bytes of the file's header and 8 of the chunk's."""
-    if content.startswith(b"glTF"):
-        yield from _in_gltf(content[20 : 20 + int.from_bytes(content[12:16], "little")])
+    if not content.startswith(b"glTF"):
+        raise UnreadableError("it does not begin with 'glTF', as a binary glTF does")
+    if len(content) < int.from_bytes(content[8:12], "little"):
+        raise UnreadableError(_CUT_OFF)
+    yield from _in_gltf(content[20 : 20 + int.from_bytes(content[12:16], "little")])
+
+
+def _in_stl(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    """An STL names no file."""
+    start = content[:HEADER]
+    fault = fault_of(start, len(content))
+    if not fault and not is_binary(start, len(content)) and not _VERTEX.search(content):
+        fault = "it has no triangles"
+    if fault:
+        raise UnreadableError(fault)
+    return iter(())
+
+
+def _in_ply(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
+    """A PLY names no file."""
+    if not content.startswith(b"ply"):
+        raise UnreadableError("it does not begin with 'ply'")
+    return iter(())
 
 
 def _text(name: bytes) -> str:
@@ -132,6 +173,8 @@ def _text(name: bytes) -> str:
 _FINDERS: Mapping[str, Callable[[bytes], Iterator[tuple[str, frozenset[str]]]]] = {
     "obj": _in_obj,
     "mtl": _in_mtl,
+    "stl": _in_stl,
+    "ply": _in_ply,
     "dae": _in_collada,
     "gltf": _in_gltf,
     "glb": _in_glb,

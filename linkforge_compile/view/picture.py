@@ -8,7 +8,7 @@ import shlex
 import shutil
 import signal
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -72,7 +72,7 @@ WAIT = f"""<script>
 """The end of a page of which a picture is drawn: a browser draws it once the page is loaded, which an open document
 inside of the page delays until the robot is drawn."""
 
-_NOT_SHOWN = re.compile(r':CONSOLE[:(\d)]*\] "linkforge: (.* is not shown: .*)", source: ')
+_NOT_SHOWN = re.compile(r':CONSOLE[:(\d)]*\] "linkforge: not shown: (\w+) (.*)", source: ')
 _MESSAGE = re.compile(r':CONSOLE[:(\d)]*\] "(.*)", source: ')
 
 
@@ -123,10 +123,10 @@ def _usual_places() -> Iterator[str]:
 
 
 class Picture(NamedTuple):
-    """A PNG, and what the page did not show, each with the reason."""
+    """A PNG, and the reasons why files are not shown in it, by their digests."""
 
     png: bytes
-    not_shown: Sequence[str]
+    not_shown: Mapping[str, str]
 
 
 def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: float = TIME_LIMIT) -> Picture:
@@ -146,7 +146,7 @@ def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: floa
         messages = log.read_text("utf-8", "replace")
         if f'"{_DONE}"' not in messages or not picture.is_file():
             raise PictureError(f"{Path(browser[0]).name} drew no picture: {_reason(messages)}")
-        return Picture(picture.read_bytes(), list(_NOT_SHOWN.findall(messages)))
+        return Picture(picture.read_bytes(), dict(_NOT_SHOWN.findall(messages)))
 
 
 def _folder_for(browser: Sequence[str]) -> Path | None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.link import Inertial, Link
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source import SourceRef
+    from linkforge_compile.source import SourceRef, Span
     from linkforge_compile.view.files import MissingFile, RobotFiles
 
 Numbers: TypeAlias = Sequence[float]
@@ -109,11 +109,16 @@ class SceneState(TypedDict):
 
 
 class SceneFile(TypedDict):
-    """A file; `data` is its content in base64 where the page holds it, and `uses` the files that it names."""
+    """A file; `data` is its content in base64 where the page holds it, and `uses` the files that it names.
+
+    `links` are those whose shapes name it, and `source` is the first place that does.
+    """
 
     name: str
     kind: str
     size: int
+    links: NotRequired[Sequence[str]]
+    source: NotRequired[ScenePlace | None]
     data: NotRequired[str]
     uses: NotRequired[Mapping[str, str]]
 
@@ -155,6 +160,13 @@ class SceneDifference(TypedDict):
     is_whole: bool
 
 
+class SceneRemoved(TypedDict):
+    """Names that are gone, on which others may rely, in a line: `kind` is what they name."""
+
+    kind: str
+    text: str
+
+
 class SceneComparison(TypedDict):
     """The robot before, over which another one is shown.
 
@@ -166,6 +178,7 @@ class SceneComparison(TypedDict):
     before: Scene
     labels: tuple[str, str]
     differences: Sequence[SceneDifference]
+    removed: Sequence[SceneRemoved]
     kinds: Mapping[str, str]
     links: Mapping[str, str]
     joints: Mapping[str, str]
@@ -290,14 +303,16 @@ def _numbers(values: Sequence[object]) -> Numbers:
 def _file(files: RobotFiles, digest: str) -> SceneFile:
     file = files.files[digest]
     made: SceneFile = {"name": file.name, "kind": file.kind, "size": len(file.content)}
+    if use := files.uses.get(digest):
+        made |= {"links": use.links, "source": _place_at(use.place)}
     if file.uses:
         made["uses"] = file.uses
     return made
 
 
 def _missing(missing: MissingFile) -> SceneMissing:
-    place = _place(missing.source)
-    return {"file": missing.resource, "reason": missing.reason, "links": missing.links, "source": place}
+    links, place = missing.use.links, _place_at(missing.use.place)
+    return {"file": missing.resource, "reason": missing.reason, "links": links, "source": place}
 
 
 def _pose(origin: Transform) -> ScenePose:
@@ -306,10 +321,11 @@ def _pose(origin: Transform) -> ScenePose:
 
 
 def _place(source: SourceRef | None) -> ScenePlace | None:
-    if source is None:
-        return None
-    span = source.span
-    return {"file": span.file.shown, "line": span.line, "column": span.column}
+    return _place_at(source.span if source else None)
+
+
+def _place_at(span: Span | None) -> ScenePlace | None:
+    return {"file": span.file.shown, "line": span.line, "column": span.column} if span else None
 
 
 def _module(source: SourceRef | None) -> str:

@@ -16,15 +16,16 @@ from linkforge_compile.expand import CliArgument
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.listing import Listing
 from linkforge_compile.pipeline import parameters_of
-from linkforge_compile.view.files import RobotFiles, collect_files
+from linkforge_compile.roots import identity
+from linkforge_compile.view.files import RobotFiles, collect_files, not_reported
 from linkforge_compile.view.scene import Scene, SceneView, make_scene
 from linkforge_compile.view.updates import Update, problems_of, shown_settings, values_of
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
-PANEL = "<parameters>"
-"""The name of the page's panel as the place of a value, in diagnostics."""
+PAGE = "<viewer page>"
+"""The place of a value that was set in the page, in diagnostics."""
 
 ViewOf: TypeAlias = "Callable[[Robot], SceneView] | None"
 """Returns how a robot is shown first; None for without any options."""
@@ -82,7 +83,7 @@ class State(NamedTuple):
         return {
             "version": self.version,
             "scene": self.scene if version < self.scene_version else None,
-            "problems": problems_of(self.diagnostics),
+            "problems": problems_of(self.diagnostics, self.files.missing),
             "settings": shown_settings(self.settings, self.listing),
         }
 
@@ -119,11 +120,14 @@ def compile_state(
 
 def _with_scene(state: State, robot: Robot, view: SceneView | None) -> State:
     files = collect_files(robot)
-    scene = make_scene(robot, files, view, is_live=True)
+    # The others are among the problems.
+    listed = files._replace(missing=not_reported(files.missing, state.diagnostics))
+    scene = make_scene(robot, listed, view, is_live=True)
     scene["version"] = state.scene_version
-    state = state._replace(watched=tuple(dict.fromkeys((*state.watched, *files.paths))))
+    by_file = {identity(path): path for path in reversed((*state.watched, *files.paths))}
+    state = state._replace(watched=tuple(reversed(by_file.values())))
     if scene == state.scene:
-        return state
+        return state._replace(files=state.files._replace(missing=files.missing))
     scene["version"] = state.version
     return state._replace(scene=scene, scene_version=state.version, files=files, former_files=state.files)
 
@@ -169,7 +173,7 @@ class Session:
             if not isinstance(variant, Unchanged) and variant != self._settings.variant:
                 changed.append("the variant")
                 self._settings = self._settings._replace(variant=variant)
-            parameters = {name: CliArgument(PANEL, name, text) for name, text in after.items()}
+            parameters = {name: CliArgument(PAGE, name, text) for name, text in after.items()}
             self._settings = self._settings._replace(parameters=parameters)
             self._chosen |= dict.fromkeys(changed)
             self._news.notify_all()

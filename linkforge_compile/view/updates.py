@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypedDict
 
 from linkforge_compile.analysis import Parameters, Settings
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.diagnostics.render_text import MOST_SHOWN, snippet
 from linkforge_compile.diagnostics.reports import count_losses
 from linkforge_compile.expand import CliArgument, arguments_from_text
 from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
 from linkforge_compile.units import number_text, parse_quantity
+from linkforge_compile.view.files import MissingFile
 from linkforge_compile.view.scene import Scene
 
 
@@ -130,15 +132,16 @@ def _as_choice(text: str | None, unit: str | None) -> str | None:
     return f"{number_text(quantity.value)} {unit}" if quantity else text
 
 
-def problems_of(diagnostics: Iterable[Diagnostic]) -> list[Problem]:
-    """Return the diagnostics that a report in text shows, errors first."""
+def problems_of(diagnostics: Iterable[Diagnostic], missing: Iterable[MissingFile] = ()) -> list[Problem]:
+    """Return the diagnostics that a report in text shows, errors first; of missing files with the links."""
     diagnostics = tuple(diagnostics)
+    links = {one.use.place: one.use.links for one in missing}
     shown = [one for one in count_losses(diagnostics, [diagnostics]) if not one.is_only_counted]
     shown.sort(key=lambda one: list(Severity).index(one.severity))
-    return [_problem(one) for one in shown[:MOST_SHOWN]]
+    return [_problem(one, links.get(one.span, ())) for one in shown[:MOST_SHOWN]]
 
 
-def _problem(one: Diagnostic) -> Problem:
+def _problem(one: Diagnostic, links: Sequence[str]) -> Problem:
     span = one.span if one.span and one.span.file.path else None
     return {
         "severity": one.severity.value,
@@ -148,7 +151,7 @@ def _problem(one: Diagnostic) -> Problem:
         "line": span.line if span else None,
         "column": span.column if span else None,
         "page": f"codes/{one.code.id}",
-        "hints": list(_hints(one)),
+        "hints": [*_hints(one), *([f"not shown in {join_names(links)}"] if links else [])],
         "snippet": "\n".join(snippet(one.span)),
     }
 

@@ -10,6 +10,7 @@ import pytest
 from linkforge_compile.cli.commands.view import LAYERS
 from linkforge_compile.view import html, picture
 from tests.cli.in_process import linkforge
+from tests.meshes import block, content
 
 PAGE = Path(html.__file__).parent / "page"
 
@@ -21,8 +22,12 @@ parameters:
 links:
   base: {visual: {box: ["$(reach)", 0.1, 0.1]}}
   tip: {visual: {mesh: gone.stl}}
+  end: {}
+  twin: {}
 joints:
   bend: {type: revolute, parent: base, child: tip, axis: x, limits: {lower: -2, upper: 2, effort: 1, velocity: 1}}
+  weld: {type: fixed, parent: tip, child: end}
+  echo: {type: continuous, parent: base, child: twin, axis: x, mimic: {joint: bend}}
 semantic:
   groups: {arm: {joints: [bend]}, all: {joints: [bend]}}
   group_states: {arm: {home: {bend: 0.5}, out: {bend: 1}}}
@@ -76,7 +81,7 @@ def test_a_spec_with_errors_writes_nothing(arm: Path):
     (arm / "arm.robot.yaml").write_text(SPEC.replace("child: tip", "child: top"), "utf-8")
     done = linkforge("view", "arm.robot.yaml", "-o", "arm.html", cwd=arm)
     assert done.returncode == 1
-    assert "arm.robot.yaml:9" in done.stderr
+    assert "arm.robot.yaml:11" in done.stderr
     assert not (arm / "arm.html").exists()
 
 
@@ -105,12 +110,18 @@ def test_a_pose_is_a_state_or_a_position(arm: Path, poses: tuple[str, ...], posi
         (("-o", "a.html", "--pose", "arm/hom"), "no state 'arm/hom'; did you mean 'arm/home'?"),
         (("-o", "a.html", "--pose", "hom"), "no state 'hom'; did you mean 'home'?"),
         (("-o", "a.html", "--pose", "bned=1"), "'bned' is not a joint of the robot; did you mean 'bend'?"),
-        (("-o", "a.html", "--pose", "bend=3"), "--pose bend=3: 'bend' is from -2 rad to 2 rad"),
+        (
+            ("-o", "a.html", "--pose", "bend=3"),
+            "--pose bend=3: joint 'bend' is from -2 rad to 2 rad; did you mean 'bend=3deg'?",
+        ),
         (("-o", "a.html", "--pose", "bend=180deg"), "'bend' is from -114.592 deg to 114.592 deg"),
-        (("-o", "a.html", "--pose", "bend=1 m"), "takes a number in rad, or with its unit, found '1 m'"),
-        (("-o", "a.html", "--pose", "bend=up"), "takes a number in rad, or with its unit, found 'up'"),
+        (("-o", "a.html", "--pose", "bend=1 m"), "joint 'bend' takes an angle such as 0.5 or '30 deg', found '1 m'"),
+        (("-o", "a.html", "--pose", "bend=up"), "joint 'bend' takes an angle such as 0.5 or '30 deg', found 'up'"),
         (("-o", "a.html", "--camera", "1"), "takes AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres, found '1'"),
+        (("-o", "a.html", "--pose", "weld=1"), "'weld' is fixed, and has no position of its own"),
+        (("-o", "a.html", "--pose", "echo=1"), "'echo' follows joint 'bend', and has no position of its own"),
         (("-o", "a.html", "--camera", "1,nan"), "found '1,nan'"),
+        (("-o", "a.html", "--camera", "-40,25"), "expected one argument; write --camera=-40,25, as a minus begins"),
         (("-o", "a.html", "--camera", "1,91"), "from -90 to 90"),
         (("-o", "a.html", "--camera", "1,1,0"), "above 0 m"),
         (("-o", "a.html", "--size", "100"), "takes WIDTHxHEIGHT, each up to 8192 pixels, found '100'"),
@@ -152,7 +163,7 @@ def test_many_missing_files_are_one_line_a_reason(arm: Path):
     done = linkforge("view", "arm.robot.yaml", "-o", "a.html", cwd=arm)
     (line,) = (line for line in done.stderr.splitlines() if "not shown" in line)
     assert "arm.robot.yaml:4:" in line
-    assert "'package://nowhere/0.stl' and 3 other files are not shown: package 'nowhere' is not found" in line
+    assert "warning: 'package://nowhere/0.stl' and 3 other files are not shown: package 'nowhere' is not found" in line
 
 
 def test_a_picture_has_the_size_that_is_asked_for(page: Path, browser: object, tmp_path: Path):
@@ -160,6 +171,34 @@ def test_a_picture_has_the_size_that_is_asked_for(page: Path, browser: object, t
     done = linkforge("view", "arm.robot.yaml", "-o", "arm.png", "--size", "200x100", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "wrote arm.png\n")
     assert struct.unpack(">II", (tmp_path / "arm.png").read_bytes()[16:24]) == (200, 100)
+
+
+@pytest.mark.parametrize(
+    ("link", "options", "hint"),
+    [
+        ("{collision: {sphere: 1}}", (), "the robot has no visuals; use --show collisions,frames"),
+        ("{}", ("--show", "visuals,inertias"), "the robot has no visuals or inertias; use --show frames"),
+        ("{}", ("--show", "frames"), ""),
+        ("{visual: {sphere: 1}}", (), ""),
+    ],
+)
+def test_an_empty_picture_comes_with_a_hint(
+    link: str, options: tuple[str, ...], hint: str, arm: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(picture, "find_browser", lambda: ["browser"])
+    monkeypatch.setattr(picture, "draw_picture", lambda *_: picture.Picture(b"png", {}))
+    (arm / "arm.robot.yaml").write_text(f"linkforge: 1\nname: r\nlinks: {{a: {link}}}\n", "utf-8")
+    done = linkforge("view", "arm.robot.yaml", "-o", "a.png", *options, cwd=arm)
+    assert done.stderr == (f"the picture is empty: {hint}\n" if hint else "") + "wrote a.png\n"
+
+
+def test_what_the_browser_cannot_read_is_a_warning_with_its_place(page: Path, browser: object, tmp_path: Path):
+    mesh = content(block(1, 1, 1), "ply")
+    (tmp_path / "half.ply").write_bytes(mesh[:-40])
+    (tmp_path / "arm.robot.yaml").write_text("linkforge: 1\nname: r\nlinks: {a: {visual: {mesh: half.ply}}}\n", "utf-8")
+    done = linkforge("view", "arm.robot.yaml", "-o", "arm.png", "--size", "200x100", cwd=tmp_path)
+    line = "arm.robot.yaml:3:28: warning: 'half.ply' is not shown: the file ends before its data does\n"
+    assert (done.returncode, done.stderr) == (0, f"{line}wrote arm.png\n")
 
 
 def test_the_layers_are_those_of_the_page():

@@ -67,6 +67,16 @@ def test_renamed_links_and_joints_are_the_same_ones():
     assert found["kinds"]["flange"] == "renamed"
 
 
+@pytest.mark.usefixtures("page")
+def test_names_on_which_others_may_rely_are_those_of_the_text(robots: Path, show: Callable[[str], Any]):
+    text = linkforge("diff", "old.robot.yaml", "new.robot.yaml", cwd=robots).stdout
+    head, *lines = text.split("\n\n")[1].splitlines()
+    linkforge("diff", "old.robot.yaml", "new.robot.yaml", "--html", "-o", "diff.html", cwd=robots)
+    shown = show((robots / "diff.html").read_text("utf-8")).locator(".removed-names")
+    assert shown.inner_text().splitlines() == [head, *(" ".join(line.split()) for line in lines)]
+    assert lines == ["  link   lamp", "  joint  hook"]
+
+
 @pytest.fixture
 def robots(tmp_path: Path) -> Path:
     (tmp_path / "old.robot.yaml").write_text(OLD)

@@ -5,13 +5,18 @@ import os
 from pathlib import Path
 
 import pytest
+import trimesh
 
 from linkforge_compile import compile_file
 from linkforge_compile.view import files as files_module
-from linkforge_compile.view.files import RobotFiles, collect_files
+from linkforge_compile.view.files import RobotFiles, collect_files, not_reported
 from linkforge_compile.view.scene import make_scene
+from tests.meshes import block, content
 
 HEAD = "linkforge: 1\nname: r\n"
+STL = (
+    b"solid %s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"
+)
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -35,9 +40,9 @@ def used(files: RobotFiles, name: str) -> dict[str, str]:
 
 
 def write(folder: Path, **contents: str | bytes) -> None:
-    for name, content in contents.items():
+    for name, text in contents.items():
         path = folder / name.replace("__", ".")
-        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        path.write_bytes(text.encode() if isinstance(text, str) else text)
 
 
 def test_a_material_and_its_texture_come_with_an_obj(tmp_path: Path):
@@ -73,7 +78,7 @@ def test_images_come_with_collada_and_gltf(tmp_path: Path):
 
 
 def test_a_file_of_two_shapes_is_there_once(tmp_path: Path):
-    write(tmp_path, a__stl=b"solid a", b__stl=b"solid a", c__stl=b"solid c")
+    write(tmp_path, a__stl=STL % b"a", b__stl=STL % b"a", c__stl=STL % b"c")
     files = files_of(tmp_path, "a.stl", "b.stl", "c.stl", "package://here/c.stl")
     assert len(files.files) == 2
     assert files.digests["a.stl"] == files.digests["b.stl"] != files.digests["c.stl"]
@@ -94,8 +99,8 @@ def test_what_is_missing_has_its_reason_and_links(tmp_path: Path):
     meshes = ("gone.stl", "package://nowhere/a.stl", "empty.stl", "lfs.stl", "a.fbx", "a.obj", "gone.stl")
     files = files_of(tmp_path, *meshes)
     missing = {one.resource: one for one in files.missing}
-    assert missing["gone.stl"].links == ("l0", "l6")
-    assert missing["gone.stl"].source.span.line == 4
+    assert missing["gone.stl"].use.links == ("l0", "l6")
+    assert missing["gone.stl"].use.place.line == 4
     reasons = {resource: one.reason for resource, one in missing.items()}
     assert reasons["gone.stl"] == "the file is not found"
     assert "--package nowhere=FOLDER" in reasons["package://nowhere/a.stl"]
@@ -110,7 +115,7 @@ def test_only_files_within_the_roots_are_read(tmp_path: Path):
     inside, outside = tmp_path / "inside", tmp_path / "outside"
     inside.mkdir()
     outside.mkdir()
-    write(outside, secret__stl=b"solid s", secret__png=PNG)
+    write(outside, secret__stl=STL % b"s", secret__png=PNG)
     (inside / "link.stl").symlink_to(outside / "secret.stl")
     write(inside, a__obj="mtllib a.mtl\n", a__mtl="newmtl m\nmap_Kd ../outside/secret.png\n")
     meshes = ("../outside/secret.stl", "link.stl", str(outside / "secret.stl"), "a.obj")
@@ -123,7 +128,7 @@ def test_only_files_within_the_roots_are_read(tmp_path: Path):
     (outside / "secret.stl").unlink()
     without = files_of(inside, *meshes).missing
     assert [one[:2] for one in without] == [one[:2] for one in files.missing], "a reason reveals whether a file exists"
-    (outside / "secret.stl").write_bytes(b"solid s")
+    (outside / "secret.stl").write_bytes(STL % b"s")
     assert len(files_of(inside, *meshes, allow_outside=True).missing) == 0
 
 
@@ -150,12 +155,12 @@ def test_files_have_limits_of_their_size(tmp_path: Path, monkeypatch: pytest.Mon
     mebibyte = 1024**2
     monkeypatch.setattr(files_module, "MAX_BYTES", 2 * mebibyte)
     monkeypatch.setattr(files_module, "MAX_ALL_BYTES", 3 * mebibyte)
-    write(tmp_path, a__stl=b"a" * 3 * mebibyte, b__stl=b"b" * 2 * mebibyte, c__stl=b"c" * 2 * mebibyte, d__stl=b"d")
-    files = files_of(tmp_path, "a.stl", "b.stl", "c.stl", "d.stl")
-    assert by_name(files).keys() == {"b.stl", "d.stl"}
+    write(tmp_path, a__obj=b"a" * 3 * mebibyte, b__obj=b"b" * 2 * mebibyte, c__obj=b"c" * 2 * mebibyte, d__obj=b"d")
+    files = files_of(tmp_path, "a.obj", "b.obj", "c.obj", "d.obj")
+    assert by_name(files).keys() == {"b.obj", "d.obj"}
     assert {one.resource: one.reason for one in files.missing} == {
-        "a.stl": "it is larger than 2 MiB",
-        "c.stl": "all files of the robot are larger than 3 MiB together",
+        "a.obj": "it is larger than 2 MiB",
+        "c.obj": "all files of the robot are larger than 3 MiB together",
     }
 
 
@@ -174,4 +179,58 @@ def test_textures_of_materials_are_files_of_the_scene(tmp_path: Path):
     scene = make_scene(robot, collect_files(robot))
     (digest,) = scene["files"]
     assert scene["links"][0]["visuals"][0]["texture"] == digest
-    assert scene["files"][digest] == {"name": "wood.png", "kind": "png", "size": len(PNG)}
+    assert scene["files"][digest] == {
+        "name": "wood.png",
+        "kind": "png",
+        "size": len(PNG),
+        "links": ("a",),
+        "source": {"file": str(tmp_path / "r.robot.yaml"), "line": 3, "column": 70},
+    }
+
+
+def _cut(mesh: trimesh.Trimesh, form: str) -> bytes:
+    whole = content(mesh, form)
+    return whole[: len(whole) // 2]
+
+
+@pytest.mark.parametrize(
+    ("name", "written", "reason"),
+    [
+        ("a.stl", _cut(block(1, 1, 1), "stl"), "the file ends before its data does, after 5 of 12 triangles"),
+        ("a.stl", b"solid of nothing", "it has no triangles"),
+        ("a.stl", b"<html>404</html>", "its length is not that of a binary STL file, nor does it begin with 'solid'"),
+        ("a.dae", _cut(block(1, 1, 1), "dae"), "the file ends before its data does"),
+        ("a.dae", b"<a>\n<b></a>\n</b>", "it is not well-formed XML at line 2"),
+        ("a.glb", _cut(block(1, 1, 1), "glb"), "the file ends before its data does"),
+        ("a.glb", b"<html>", "it does not begin with 'glTF'"),
+        ("a.gltf", b'{"asset": {"version": "2.0"', "the file ends before its data does"),
+        ("a.gltf", b'{"asset": "2.0', "the file ends before its data does"),
+        ("a.gltf", b"{\nasset: 1}", "it is not JSON at line 2"),
+        ("a.ply", b"<html>", "it does not begin with 'ply'"),
+        ("http://example.com/a.dae", b"", "nothing is downloaded; save it next to the spec"),
+        ("model://arm/a.dae", b"", "files of 'model://' are not looked for"),
+        (
+            "package:///arm/a.dae",
+            b"",
+            "'package:///' names no package, and RViz refuses it too; write 'package://arm/…'",
+        ),
+    ],
+)
+def test_a_file_that_cannot_be_shown_has_the_reason_and_its_link(
+    name: str, written: bytes, reason: str, tmp_path: Path
+):
+    if "/" not in name:
+        (tmp_path / name).write_bytes(written)
+    (missing,) = files_of(tmp_path, name).missing
+    assert (missing.resource, missing.use.links, missing.use.place.line) == (name, ("l0",), 4)
+    assert reason in missing.reason
+
+
+def test_files_of_a_folder_that_a_diagnostic_is_about_are_not_named_again(tmp_path: Path):
+    meshes = [f"gone/{n}.stl" for n in range(9)]
+    files_of(tmp_path, *meshes, "http://example.com/a.stl")
+    compilation = compile_file(tmp_path / "r.robot.yaml")
+    missing = collect_files(compilation.result()).missing
+    assert len(compilation.diagnostics) == 1
+    assert [one.resource for one in not_reported(missing, compilation.diagnostics)] == ["http://example.com/a.stl"]
+    assert not_reported(missing, ()) == missing

@@ -150,9 +150,15 @@ def test_states_of_groups_are_buttons_marked_once_reached(show: Open):
     assert positions(tab)["elbow"] == pytest.approx(-0.7)
     expect(reach).to_have_attribute("aria-pressed", "true")
     expect(arm.get_by_role("button", name="home")).to_have_attribute("aria-pressed", "false")
-    tab.get_by_role("button", name="zero").click()
+    default = tab.get_by_role("button", name="default", exact=True)
+    expect(default).to_have_attribute("aria-pressed", "false")
+    default.click()
     assert positions(tab)["elbow"] == 0
     assert positions(tab)["gripper/left_slide"] == 0.005
+    expect(default).to_have_attribute("aria-pressed", "true")
+    reach.click()
+    tab.keyboard.press("d")
+    assert positions(tab)["elbow"] == 0
 
 
 def test_random_positions_are_within_the_limits(show: Open):
@@ -300,6 +306,30 @@ def test_names_are_text_never_html(show: Open):
     tab.keyboard.press("l")
     assert tab.locator("img").count() == 0
     assert tab.evaluate("window.broken") is None
+
+
+def test_a_robot_without_visuals_has_its_collisions_and_frames_shown_first(show: Open):
+    scene = copy.deepcopy(SAMPLE)
+    for link in scene["links"]:
+        link["visuals"] = []
+    tab = show(scene)
+    for layer, is_shown in (("collisions", True), ("frames", True), ("inertia", False)):
+        expect(tab.get_by_role("checkbox", name=layer)).to_be_checked(checked=is_shown)
+
+
+def test_the_number_of_a_joint_and_the_name_of_a_deep_link_are_not_cut(show: Open):
+    scene = copy.deepcopy(SAMPLE)
+    for link in scene["links"]:
+        link["module"] = f"left_arm_of_the_robot/{link['name']}"
+    tab = show(scene)
+    slide(tab, "shoulder", -0.5)
+    slide(tab, "elbow", -3.1415)
+    for unit in ("deg", "rad"):
+        tab.get_by_role("button", name=unit, exact=True).click()
+        for number in tab.locator(".joint input[type=number]").all():
+            assert number.evaluate("number => number.scrollWidth <= number.clientWidth")
+    for name in tab.locator(".tree .name").all():
+        assert name.evaluate("name => name.scrollWidth <= name.clientWidth")
 
 
 def test_a_picture_has_no_panels(show: Open):

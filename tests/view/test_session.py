@@ -203,7 +203,10 @@ def test_warnings_that_the_user_ignores_are_no_problems(spec: Path):
 def test_a_mesh_is_watched_and_its_former_bytes_are_kept_for_pages_that_still_load_them(spec: Path):
     spec.write_text("linkforge: 1\nname: arm\nlinks: {base: {visual: {mesh: part.stl}}}\n")
     session = Session(spec, Settings([]))
-    assert [one["file"] for one in session.renew().update_since(0)["scene"]["missing"]] == ["part.stl"]
+    update = session.renew().update_since(0)
+    (problem,) = update["problems"]
+    assert (problem["code"], problem["line"], problem["hints"][-1]) == ("LF6021", 3, "not shown in 'base'")
+    assert update["scene"]["missing"] == [], "it is listed once"
     mesh, digests = spec.with_name("part.stl"), []
     for size in (1, 2, 3):
         mesh.write_text(TRIANGLE.format(size))

@@ -1,6 +1,7 @@
 """The shapes of a robot in the page: where they are, and how they look."""
 
 import io
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -173,13 +174,20 @@ def test_a_texture_that_cannot_be_read_leaves_the_shape_and_is_listed(show_link:
 
 def test_a_mesh_that_cannot_be_read_is_listed(show_link: Callable[..., Any]):
     tab = show_link("{visual: {mesh: m.gltf}}", {"m.gltf": b"{}"}, {**FRONT, "panels": True})
-    assert "m.gltf is not shown: " in tab.locator(".problems").text_content()
+    assert "m.gltf is not shown: it cannot be read as .gltf" in tab.locator(".problems").text_content()
 
 
-def test_half_of_an_stl_is_listed_as_such(show_link: Callable[..., Any]):
-    whole = content(block(1, 1, 1), "stl")
-    tab = show_link("{visual: {mesh: m.stl}}", {"m.stl": whole[:300]}, {**FRONT, "panels": True})
-    assert "m.stl is not shown: the file ends before its data does" in tab.locator(".problems").text_content()
+def test_half_of_a_mesh_is_listed_with_its_link_and_place(show_link: Callable[..., Any]):
+    known, found = (content(block(1, 1, 1), form) for form in ("stl", "ply"))
+    tab = show_link("{visual: {mesh: m.stl}}", {"m.stl": known[:300]}, {**FRONT, "panels": True})
+    problems = tab.locator(".problems").text_content()
+    assert "1 file not shown: the file ends before its data does, after 4 of 12 triangles" in problems
+    assert "m.stl of part at " in problems
+    # What Python does not look for, the reader of the page finds.
+    tab = show_link("{visual: {mesh: m.ply}}", {"m.ply": found[:-40]}, {**FRONT, "panels": True})
+    problems = tab.locator(".problems").text_content()
+    assert "m.ply is not shown: the file ends before its data does" in problems
+    assert re.search(r"of part at \S*r\.robot\.yaml:3", problems)
 
 
 def test_a_texture_that_is_missing_leaves_the_mesh(show_link: Callable[..., Any]):

@@ -161,7 +161,7 @@ def _diff(words: list[str], assignments: list[str], tree: GitTree | None, argume
     )
     if arguments.html:
         labels = (sides[0].label, sides[1].label)
-        write_page((before, after), labels, comparison.differences, arguments)
+        write_page((before, after), labels, comparison.differences, comparison.removed, arguments)
     else:
         text = _json_text(comparison) if arguments.json else "".join(f"{line}\n" for line in _lines(comparison))
         write_to_stdout(text)

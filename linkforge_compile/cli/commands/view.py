@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections import defaultdict
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
+from linkforge_compile.cli.not_shown import report_not_shown
 from linkforge_compile.cli.options import (
     add_spec_and_values,
     add_spec_options,
@@ -19,14 +18,14 @@ from linkforge_compile.cli.options import (
 )
 from linkforge_compile.cli.poses import positions_of
 from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
-from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.targets import file_to_write
+from linkforge_compile.core.models.joint import SINGLE_AXIS
+from linkforge_compile.diagnostics.enumerations import alternatives
 
 if TYPE_CHECKING:
     from linkforge_compile.cli.output import Content
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.view.files import MissingFile, RobotFiles
+    from linkforge_compile.view.files import RobotFiles
     from linkforge_compile.view.picture import Size
     from linkforge_compile.view.scene import Scene, SceneCamera, SceneView
 
@@ -137,14 +136,16 @@ def run(arguments: argparse.Namespace) -> int:
     if report(compilation.diagnostics, arguments) or compilation.robot is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import refuse_to_replace, write_document
-    from linkforge_compile.view.files import collect_files
+    from linkforge_compile.view.files import collect_files, not_reported
     from linkforge_compile.view.scene import make_scene
 
     robot = compilation.robot
     view = _view(robot, arguments)
     files = collect_files(robot)
     refuse_to_replace((*compilation.files, *files.paths), outputs)
-    _report_missing(files, compilation.diagnostics, arguments)
+    report_not_shown(not_reported(files.missing, compilation.diagnostics), arguments)
+    if "png" in outputs.values():
+        _hint_at_layers(robot, arguments)
     scene = make_scene(robot, files, view)
     contents = {path: _content(form, scene, files, arguments) for path, form in outputs.items()}
     for path, content in contents.items():
@@ -191,21 +192,25 @@ def _view(robot: Robot, arguments: argparse.Namespace) -> SceneView:
     return view
 
 
-def _report_missing(files: RobotFiles, diagnostics: Iterable[Diagnostic], arguments: argparse.Namespace) -> None:
-    """Print what is not shown, by reason, with the place of the first file of each; not what is reported already."""
-    reported = {place for one in diagnostics for place in (one.span, *(note.span for note in one.notes))}
-    by_reason: dict[str, list[MissingFile]] = defaultdict(list)
-    for missing in files.missing:
-        if missing.source is None or missing.source.span not in reported:
-            by_reason[missing.reason].append(missing)
-    for reason, (first, *others) in by_reason.items():
-        place = f"{first.source.span}: " if first.source else ""
-        what = f"'{first.resource}' and {count(len(others), 'other file')} are" if others else f"'{first.resource}' is"
-        print_status(f"{place}{what} not shown: {reason}", arguments)
+def _hint_at_layers(robot: Robot, arguments: argparse.Namespace) -> None:
+    """Say what to show of a robot that has nothing in the layers of a picture."""
+    parts = [link.inertial for link in robot.links if link.inertial]
+    has_parts = {
+        "visuals": any(link.visuals for link in robot.links),
+        "collisions": any(link.collisions for link in robot.links),
+        "axes": any(joint.type in SINGLE_AXIS for joint in robot.joints),
+        **dict.fromkeys(("centers", "inertias"), any(part.mass for part in parts)),
+    }
+    layers = [layer for layer in arguments.show or ["visuals"] if layer != "grid"]
+    if not layers or any(has_parts.get(layer, True) for layer in layers):
+        return
+    others = ",".join(layer for layer in ("collisions", "frames") if has_parts.get(layer, True))
+    print_status(f"the picture is empty: the robot has no {alternatives(layers)}; use --show {others}", arguments)
 
 
 def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Namespace) -> Content:
     """Return the page or the picture of a scene; UsageError if this machine cannot make it."""
+    from linkforge_compile.view.files import MissingFile
     from linkforge_compile.view.html import NoPageError, html_of
     from linkforge_compile.view.picture import WAIT, PictureError, draw_picture, find_browser
 
@@ -216,8 +221,8 @@ def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Nam
         html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files, last=WAIT)
         with progress_after(f"drawing with {Path(browser[0]).name}", arguments):
             picture = draw_picture(html, arguments.size, browser)
-        for fault in picture.not_shown:
-            print_status(fault, arguments)
+        shapes = [(files.uses.get(digest), reason) for digest, reason in picture.not_shown.items()]
+        report_not_shown([MissingFile(use.resource, reason, use) for use, reason in shapes if use], arguments)
         return picture.png
     except (NoPageError, PictureError) as error:
         raise UsageError(str(error)) from error

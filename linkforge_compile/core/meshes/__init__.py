@@ -16,6 +16,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkforge_compile.core.exceptions import MeshError, MeshFault, RobotPhysicsError, ValidationErrorCode
+from linkforge_compile.core.meshes.stl import HEADER, TRIANGLE, fault_of, is_binary
 from linkforge_compile.core.models.geometry import Geometry, Mesh
 
 if TYPE_CHECKING:
@@ -47,9 +48,6 @@ MAX_BYTES = 128 * 1024 * 1024
 
 MAX_NODES = 100_000
 """The nodes of a scene of COLLADA: a file of few lines may nest them without end."""
-
-# The sizes of the header and of a triangle of a binary STL file [bytes].
-_HEADER, _TRIANGLE = 84, 50
 
 _LFS_POINTER = b"version https://git-lfs"
 
@@ -174,16 +172,13 @@ def _refuse_more(triangles: int, limit: int) -> None:
 
 
 def _read_stl(content: bytes, limit: int) -> Triangles:
-    size = len(content)
-    is_binary = size >= _HEADER and size == _HEADER + _TRIANGLE * int.from_bytes(content[80:84], "little")
+    start, size = content[:HEADER], len(content)
+    has_bytes = is_binary(start, size)
     # trimesh needs several times the size of the triangles, so they are counted before, here and for OBJ.
-    _refuse_more((size - _HEADER) // _TRIANGLE if is_binary else content.count(b"vertex") // 3, limit)
-    if is_binary:
-        return _read_by_trimesh(content, "stl")
-    if not content.lstrip().lower().startswith(b"solid"):
-        reason = "its length is not that of a binary STL file, nor does it begin with 'solid' as an ASCII one"
-        raise MeshError(MeshFault.UNREADABLE, reason)
-    return _read_by_trimesh(_utf8(content), "stl")
+    _refuse_more((size - HEADER) // TRIANGLE if has_bytes else content.count(b"vertex") // 3, limit)
+    if fault := fault_of(start, size):
+        raise MeshError(MeshFault.UNREADABLE, fault)
+    return _read_by_trimesh(content if has_bytes else _utf8(content), "stl")
 
 
 def _read_obj(content: bytes, limit: int) -> Triangles:

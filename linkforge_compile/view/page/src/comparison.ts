@@ -6,6 +6,7 @@ import { FINISH } from "./meshes";
 import { Robot } from "./robot";
 import type { Comparison, DifferenceKind, Scene } from "./scene";
 import type { State } from "./state";
+import type { Theme } from "./theme";
 
 /** The kinds of differences with their colours, as in style.css. */
 export const COLORS: Readonly<Record<DifferenceKind, number>> = {
@@ -16,7 +17,6 @@ export const COLORS: Readonly<Record<DifferenceKind, number>> = {
   renamed: 0x7048e8,
 };
 const SAME = 0xb9bec7;
-const BEFORE = 0x1b2129;
 /** How much farther apart than this two places of a link differ, as numbers of their transforms. */
 const NEAR = 1e-9;
 
@@ -25,18 +25,25 @@ export class Compared {
     private readonly comparison: Comparison,
     private readonly after: Robot,
     private readonly before: Robot,
+    private readonly ghost: THREE.MeshStandardMaterial,
   ) {}
 
   /** Make the robot before that of a scene, and colour both. */
   static async make(scene: Scene, comparison: Comparison, after: Robot, shapes: Shapes): Promise<Compared> {
     const before = await Robot.make({ ...comparison.before, files: scene.files }, shapes);
-    const made = new Compared(comparison, after, before);
+    const made = new Compared(comparison, after, before, makeGhost());
     const solid = new Map(Object.entries(COLORS).map(([kind, color]) => [kind, new THREE.MeshStandardMaterial({ ...FINISH, color })]));
     const same = new THREE.MeshStandardMaterial({ ...FINISH, color: SAME });
     after.paint((link) => solid.get(comparison.kinds[link] ?? "") ?? same);
-    const [gone, was] = [makeGhost(COLORS.removed), makeGhost(BEFORE)];
-    before.paint((link) => (made.kind(link) === "removed" ? gone : was));
+    const gone = makeGhost();
+    gone.color.set(COLORS.removed);
+    before.paint((link) => (made.kind(link) === "removed" ? gone : made.ghost));
     return made;
+  }
+
+  /** Take the colour of the robot before. */
+  follow({ before }: Theme): void {
+    this.ghost.color.set(before);
   }
 
   /** The links of the robot before that are drawn, with their places in the world. */
@@ -80,7 +87,7 @@ export class Compared {
 }
 
 /** Make a material that is seen through what is before it. */
-function makeGhost(color: number): THREE.Material {
+function makeGhost(): THREE.MeshStandardMaterial {
   const through = { opacity: 0.3, transparent: true, depthTest: false, depthWrite: false };
-  return new THREE.MeshStandardMaterial({ ...FINISH, color, ...through });
+  return new THREE.MeshStandardMaterial({ ...FINISH, ...through });
 }

@@ -18,7 +18,7 @@ const MISSING_SIZE = 0.1;
 export class Shapes {
   /** The files of the scene that is being made. */
   files = new Files({});
-  /** Why files are not shown, by digest. */
+  /** The reasons why files are not shown, by digest. */
   readonly faults = new Map<string, string>();
   private readonly geometries = new Cache<THREE.BufferGeometry>((geometry) => geometry.dispose());
   private readonly materials = new Cache<Promise<THREE.Material>>((made) => void made.then(disposeMaterial));
@@ -83,17 +83,18 @@ export class Shapes {
     try {
       return await readMesh(this.files, digest);
     } catch (error) {
+      console.info(error); // in the words of its reader
       // Readers of binary files know of an end only by the range of their view.
-      if (error instanceof RangeError) this.note(digest, "the file ends before its data does");
-      else this.note(digest, error instanceof Error ? error.message : "it cannot be read");
+      const kind = this.files.kind(digest);
+      const isCutOff = error instanceof RangeError && kind !== "gltf";
+      this.note(digest, isCutOff ? "the file ends before its data does" : `it cannot be read as .${kind}`);
       return null;
     }
   }
 
   private note(digest: string, reason: string): void {
-    const fault = `${this.files.name(digest)} is not shown: ${reason}`;
-    this.faults.set(digest, fault);
-    console.warn(`linkforge: ${fault}`);
+    this.faults.set(digest, reason);
+    console.warn(`linkforge: not shown: ${digest} ${reason}`); // for the program that draws a picture
   }
 
   private material({ color, texture }: Shape, role: Role): Promise<THREE.Material> {

@@ -21,12 +21,14 @@ const over = (color: number): THREE.MeshBasicMaterial =>
   new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true });
 
 const ARROW = makeArrow();
-const SPHERE = new THREE.SphereGeometry(1, 32, 16);
+/** Of the triangles of a sphere's visual, so that an ellipsoid over it does not flicker. */
+const SPHERE = new THREE.SphereGeometry(1, 32, 16).rotateX(Math.PI / 2);
 const FRAME_GEOMETRY = makeFrame();
 const FRAME_MATERIAL = new THREE.MeshBasicMaterial({ vertexColors: true, depthTest: false, transparent: true });
 const CENTER_MATERIAL = over(CENTER_COLOR);
 const INERTIA_MATERIAL = new THREE.MeshStandardMaterial({
   color: INERTIA_COLOR, opacity: 0.4, transparent: true, depthWrite: false, roughness: 0.8, side: THREE.FrontSide,
+  polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
 });
 const AXIS_MATERIALS = new Map(Object.entries(AXIS_COLORS).map(([type, color]) => [type, over(color)]));
 

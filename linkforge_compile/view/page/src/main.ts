@@ -35,6 +35,7 @@ declare global {
 
 function start(scene: Scene): Console {
   const state = new State(scene);
+  if (!scene.view.panels) document.documentElement.style.colorScheme = "light"; // a picture is the same on all machines
   const picture = new Picture(document.getElementById("viewport")!, state);
   if (scene.view.panels) mountPanels(state, { fit: () => picture.fit() });
   return {

@@ -7,6 +7,7 @@ import { Labels } from "./labels";
 import { listenToPointer } from "./pointer";
 import { Robot } from "./robot";
 import { isEmpty, type Change, type State } from "./state";
+import { listenToTheme, themeOf } from "./theme";
 import { Viewport } from "./viewport";
 
 export class Picture {
@@ -23,7 +24,7 @@ export class Picture {
 
   constructor(element: HTMLElement, private readonly state: State) {
     this.viewport = new Viewport(element);
-    this.grid = new Grid(element);
+    this.grid = new Grid(element, themeOf(state.scene.view));
     this.labels = new Labels(element);
     this.viewport.scene.add(this.grid.root);
     this.viewport.drawn = () => this.labels.draw(this.viewport.camera, (link) => this.placeOf(link));
@@ -32,6 +33,8 @@ export class Picture {
       hover: (ray) => this.hover(ray),
     });
     state.listen((change) => this.follow(change));
+    this.useTheme();
+    listenToTheme(() => this.useTheme());
     this.ready = this.load();
   }
 
@@ -57,13 +60,14 @@ export class Picture {
     const robot = await Robot.make(scene, this.shapes);
     const { comparison } = scene;
     this.compared = comparison ? await Compared.make(scene, comparison, robot, this.shapes) : null;
+    this.compared?.follow(themeOf(scene.view));
     const isFirst = !this.robot || isEmpty(this.robot.scene);
     this.robot?.select(null);
     this.robot?.root.removeFromParent();
     this.robot = robot;
     this.hovered = null;
     this.shapes.sweep();
-    this.state.reportUnreadable([...this.shapes.faults].filter(([file]) => file in scene.files).map(([, fault]) => fault));
+    this.state.reportUnreadable(new Map([...this.shapes.faults].filter(([file]) => file in scene.files)));
     this.viewport.scene.add(robot.root);
     if (this.compared) this.viewport.scene.add(this.compared.root);
     for (const change of ["positions", "layers", "selection"] as const) this.update(change);
@@ -72,6 +76,14 @@ export class Picture {
     if (!isFirst) return this.viewport.frame();
     this.viewport.fit(robot.extent(), scene.view.camera);
     this.viewport.draw();
+  }
+
+  /** Take the colours of the theme. */
+  private useTheme(): void {
+    const theme = themeOf(this.state.scene.view);
+    this.viewport.setBackground(theme.background);
+    this.compared?.follow(theme);
+    this.grid.follow(theme);
   }
 
   private update(change: Change): void {

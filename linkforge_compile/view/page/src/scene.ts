@@ -85,6 +85,9 @@ export interface SceneFile {
   /** The ending in lower case: stl, obj, mtl, dae, glb, gltf, ply, png, jpg. */
   kind: string;
   size: number;
+  /** The links whose shapes name it, and the first place that does. */
+  links?: string[];
+  source?: Place | null;
   /** Base64; absent: at files/DIGEST of the server. */
   data?: string;
   /** Digests of the files it refers to, by the name that it calls them. */
@@ -131,6 +134,8 @@ export interface Comparison {
   before: Scene;
   labels: [before: string, after: string];
   differences: Difference[];
+  /** Names that are gone, on which others may rely. */
+  removed: { kind: string; text: string }[];
   /** What happened to a link, by its name in the robot after, or before for one that is gone. */
   kinds: Record<string, DifferenceKind>;
   /** New names by old ones. */

@@ -6,6 +6,8 @@ export const LAYERS = ["visuals", "collisions", "frames", "axes", "centers", "in
 export type Layer = (typeof LAYERS)[number];
 
 const FIRST_LAYERS: readonly Layer[] = ["visuals", "grid"];
+/** The first ones of a robot that has no visuals. */
+const WITHOUT_VISUALS: readonly Layer[] = [...FIRST_LAYERS, "collisions", "frames"];
 
 /** The robots of a comparison. */
 export type Side = "before" | "after";
@@ -60,8 +62,8 @@ export class State {
   /** Why no updates arrive; "" while they do. */
   connection = "";
   problems: readonly Problem[] = [];
-  /** Why files of the scene are not shown. */
-  unreadable: readonly string[] = [];
+  /** Why files of the scene are not shown, by digest. */
+  unreadable: ReadonlyMap<string, string> = new Map();
   settings: Settings = { parameters: [], variants: [], variant: null };
   #scene: Scene;
   #start: Record<string, number>;
@@ -152,8 +154,10 @@ export class State {
 
   /** Which layers are on when the page opens. */
   get firstLayers(): ReadonlySet<Layer> {
-    const { layers } = this.#scene.view;
-    return new Set(layers ? LAYERS.filter((layer) => layers.includes(layer)) : FIRST_LAYERS);
+    const { links, view } = this.#scene;
+    if (view.layers) return new Set(LAYERS.filter((layer) => view.layers!.includes(layer)));
+    const isInvisible = links.length > 0 && links.every(({ visuals }) => !visuals.length);
+    return new Set(isInvisible && view.panels ? WITHOUT_VISUALS : FIRST_LAYERS);
   }
 
   setLayer(layer: Layer, isShown: boolean): void {
@@ -204,7 +208,7 @@ export class State {
     this.#tell("live");
   }
 
-  reportUnreadable(unreadable: readonly string[]): void {
+  reportUnreadable(unreadable: ReadonlyMap<string, string>): void {
     this.unreadable = unreadable;
     this.#tell("live");
   }
@@ -212,7 +216,7 @@ export class State {
   /** Show another robot; positions, layers and the selection stay as far as their names do, or a joint's child link. */
   setScene(scene: Scene): void {
     const before = renamed(this.#set, this.#scene, scene);
-    const isFirst = isEmpty(this.#scene);
+    const isAsFirst = isEmpty(this.#scene) && LAYERS.every((layer) => this.layers.has(layer) === this.firstLayers.has(layer));
     this.#scene = scene;
     this.#index();
     this.#start = startPositions(scene);
@@ -226,7 +230,7 @@ export class State {
     this.#hidden = new Set([...this.#hidden].filter((name) => this.#links.has(name)));
     this.#selected = this.link(this.#selected)?.name ?? null;
     this.#tell("scene");
-    if (!isFirst || !scene.view.layers) return;
+    if (!isAsFirst) return;
     this.#layers = this.firstLayers;
     this.#tell("layers");
   }

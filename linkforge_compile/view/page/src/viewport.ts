@@ -5,7 +5,6 @@ import type { Camera } from "./scene";
 
 /** From the front, the right and above; +x is ahead. */
 const FIRST_VIEW: Camera = { azimuth: -40, elevation: 22 };
-const BACKGROUND = 0xf1f4f8;
 
 export class Viewport {
   readonly scene = new THREE.Scene();
@@ -22,7 +21,6 @@ export class Viewport {
 
   constructor(readonly element: HTMLElement) {
     this.camera.up.set(0, 0, 1);
-    this.scene.background = new THREE.Color(BACKGROUND);
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     element.append(this.renderer.domElement);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
@@ -33,6 +31,11 @@ export class Viewport {
     this.renderer.domElement.addEventListener("webglcontextrestored", () => this.redraw());
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
+  }
+
+  setBackground(color: number): void {
+    this.scene.background = new THREE.Color(color);
+    this.redraw();
   }
 
   /** Draw once, in the next frame of the browser. */

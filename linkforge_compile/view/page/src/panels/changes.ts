@@ -10,7 +10,14 @@ export function makeChanges(comparison: Comparison, state: State): HTMLElement {
   const boxes = [makeBox(`before: ${before}`, "before", state), makeBox(`after: ${after}`, "after", state)];
   const list = make("ul", { className: "changes" }, ...comparison.differences.map((one) => makeDifference(one, state)));
   const none = comparison.differences.length ? [] : [make("p", {}, "They are the same robot.")];
-  return makeSection("changes", ...boxes, makeLegend(comparison), ...none, list);
+  return makeSection("Changes", ...boxes, makeLegend(comparison), ...none, ...makeRemoved(comparison), list);
+}
+
+/** Show the names that are gone, as `linkforge diff` prints them. */
+function makeRemoved({ removed }: Comparison): HTMLElement[] {
+  if (!removed.length) return [];
+  const lines = removed.map(({ kind, text }) => make("div", {}, `${kind} ${text}`));
+  return [make("div", { className: "removed-names" }, "breaking: names that are gone, on which others may rely", ...lines)];
 }
 
 function makeBox(text: string, side: "before" | "after", state: State): HTMLElement {

@@ -49,7 +49,7 @@ function massRows({ mass, center, inertia }: Link): Row[] {
   const rows: Row[] = [["mass", `${brief(mass)} kg`]];
   if (center) rows.push(["centre of mass", `${vector(center)} m`]);
   if (!inertia) return rows;
-  return [...rows, ["inertia at the centre of mass [kg·m²]", inertiaTable(inertia.moments)]];
+  return [...rows, ["inertia at the centre of mass [kg*m^2]", inertiaTable(inertia.moments)]];
 }
 
 function inertiaTable(moments: readonly number[]): HTMLTableElement {
@@ -61,7 +61,7 @@ function inertiaTable(moments: readonly number[]): HTMLTableElement {
 
 function jointRows(joint: Joint, position: HTMLElement, state: State): Row[] {
   const unit = joint.type === "prismatic" ? "m/s" : "rad/s";
-  const force = joint.type === "prismatic" ? "N" : "N·m";
+  const force = joint.type === "prismatic" ? "N" : "N*m";
   const above = makeButton(joint.parent, "select the link above", () => state.select(joint.parent));
   above.className = "link";
   const rows: Row[] = [["type", joint.type], ["above", above]];
@@ -86,7 +86,7 @@ function shownShape(shape: Shape, state: State): Node | string {
   if (shape.type === "sphere") return `${name}sphere, radius ${numbers(shape.radius)} m`;
   if (shape.type !== "mesh") return `${name}${shape.type}, radius ${numbers(shape.radius)} m, length ${numbers(shape.length)} m`;
   const file = state.scene.files[shape.file ?? ""];
-  if (!file) return make("span", { className: "missing" }, `${name}mesh, missing`);
+  if (!file) return make("span", { className: "missing" }, `${name}mesh, not shown`);
   return make("span", { title: file.name }, `${name}${file.name.split("/").at(-1) ?? ""}, ${shownSize(file.size)}`);
 }
 

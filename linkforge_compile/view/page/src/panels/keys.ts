@@ -3,7 +3,7 @@ import { LAYERS, type State } from "../state";
 import { make, makeButton } from "./elements";
 import { moveAtRandom } from "./joints";
 import { LAYER_KEYS } from "./layers";
-import { zeroPositions } from "./states";
+import { defaultPositions } from "./states";
 
 export interface Key {
   key: string;
@@ -22,7 +22,7 @@ export function makeKeys(state: State, search: HTMLInputElement, fit: () => void
     ...layers,
     { key: "/", text: "search for links, joints and modules", press: () => search.focus() },
     { key: "Home", text: "show all of the robot", press: fit },
-    { key: "z", text: "move all joints to zero", press: () => state.setPositions(zeroPositions(state)) },
+    { key: "d", text: "move all joints to the default pose", press: () => state.setPositions(defaultPositions(state)) },
     { key: "r", text: "move all joints to where they started", press: () => state.setPositions(state.start) },
     { key: "p", text: "move all joints to random positions", press: () => moveAtRandom(state) },
     { key: "u", text: "show angles in degrees or radians", press: () => state.useDegrees(!state.isInDegrees) },

@@ -1,5 +1,5 @@
 /** What is wrong with the spec, its meshes or the connection, over the picture. */
-import type { MissingFile } from "../scene";
+import type { MissingFile, Place } from "../scene";
 import type { Problem, State } from "../state";
 import { counted, make } from "./elements";
 import { shownPlace } from "./numbers";
@@ -11,7 +11,7 @@ export function makeProblems(state: State): HTMLElement {
   const status = make("div", { className: "unseen", role: "status" });
   let wasFaulty = false;
   const show = (): void => {
-    const all = [...state.problems, ...missingFiles(state), ...state.unreadable.map(asWarning)];
+    const all = [...state.problems, ...missingFiles(state), ...unreadableFiles(state)];
     const heading = headingOf(state, all);
     overlay.hidden = heading === "";
     summary.replaceChildren(heading);
@@ -28,8 +28,18 @@ export function makeProblems(state: State): HTMLElement {
   return overlay;
 }
 
-function asWarning(message: string): Problem {
-  return { severity: "warning", code: "", message };
+/** Return the files that the page cannot read as problems. */
+function unreadableFiles(state: State): Problem[] {
+  return [...state.unreadable].map(([digest, reason]) => {
+    const { name, links = [], source = null } = state.scene.files[digest]!;
+    const hints = links.length ? [shownUse("", links, source)] : [];
+    return { severity: "warning", code: "", message: `${name} is not shown: ${reason}`, hints };
+  });
+}
+
+/** Return the links that have a file, and the first place that names it. */
+function shownUse(file: string, links: readonly string[], source: Place | null): string {
+  return `${file && `${file} `}of ${links.join(", ")}${source ? ` at ${shownPlace(source)}` : ""}`;
 }
 
 /** Return the missing files as problems, one for each reason. */
@@ -40,7 +50,7 @@ function missingFiles(state: State): Problem[] {
     severity: "warning",
     code: "",
     message: `${counted(files.length, "file")} not shown: ${reason}`,
-    hints: files.map(({ file, links, source }) => `${file} of ${links.join(", ")}${source ? ` at ${shownPlace(source)}` : ""}`),
+    hints: files.map(({ file, links, source }) => shownUse(file, links, source)),
   }));
 }
 

@@ -1,4 +1,4 @@
-/** Poses as buttons: zero, and the states of each group. */
+/** Poses as buttons: the default, and the states of each group. */
 import { isFree } from "../kinematics";
 import type { GroupState } from "../scene";
 import type { State } from "../state";
@@ -11,13 +11,14 @@ export function makePoses(state: State): HTMLElement {
   let buttons: PoseButton[] = [];
   const show = (): void => buttons.forEach((button) => button.show());
   const rebuild = (): void => {
-    const zero = new PoseButton("zero", () => zeroPositions(state), state);
+    const start = new PoseButton("default", () => defaultPositions(state), state);
+    start.element.title = "move each joint to 0, or to the middle of limits that exclude 0";
     const groups = byGroup(state.scene.states).map(([group, states]) => {
       const made = states.map(({ name, positions }) => new PoseButton(name, () => onlyNumbers(positions), state));
       return { row: makeRow(group, made), made };
     });
-    buttons = [zero, ...groups.flatMap(({ made }) => made)];
-    section.replaceChildren(section.firstElementChild!, makeRow("all joints", [zero]), ...groups.map(({ row }) => row));
+    buttons = [start, ...groups.flatMap(({ made }) => made)];
+    section.replaceChildren(section.firstElementChild!, makeRow("all joints", [start]), ...groups.map(({ row }) => row));
     show();
   };
   state.listen((change) => {
@@ -28,8 +29,8 @@ export function makePoses(state: State): HTMLElement {
   return section;
 }
 
-/** Where each free joint is at 0, or in the middle of limits that exclude it. */
-export function zeroPositions(state: State): Record<string, number> {
+/** Return MoveIt's default pose: each free joint at 0, or in the middle of limits that exclude it. */
+export function defaultPositions(state: State): Record<string, number> {
   return Object.fromEntries(state.scene.joints.filter(isFree).map(({ name, value }) => [name, value]));
 }
 
