@@ -40,17 +40,14 @@ def open_macro(
     if parent is None and not result.is_stand_in:
         fields = fields.with_value("parent", result.parent)
     _report_unused_origin(fields, joints, result, macro, sink)
-    if len(joints) > 1 and fields.get("parent") is not None:
+    if fields.get("parent") is None and (len(joints) > 1 or _own_origin(joints, result)):
+        what, note = f"'parent' of module '{entry.name}' has", Note("this joint attaches it", joints[-1].key.span)
+        sink.report(PARAMETER_NOT_SET.at(macro.span, what=what, remedy="'parent: LINK'", notes=[note]))
+        return None, entry
+    if len(joints) > 1:
         tree = _with_joints_at(result.parent, joints, tree, result, fields.get("origin"))
         entry = replace(entry, ref=replace(entry.ref, node=fields), shared_link=result.parent.text)
         return replace(result.spec, tree=tree), entry
-    if len(joints) > 1:
-        what, notes = (
-            f"'parent' of module '{entry.name}' has",
-            [Note("this joint attaches it, too", joints[1].key.span)],
-        )
-        sink.report(PARAMETER_NOT_SET.at(macro.span, what=what, remedy="'parent: LINK'", notes=notes))
-        return None, entry
     fields = _with_own_origin(fields, joints, result)
     mount = YamlMap({one.name: YamlEntry(one.key, _without_ends(one.value)) for one in joints}, tree.span)
     return replace(result.spec, tree=tree.with_value("mount", mount)), replace(
@@ -70,11 +67,16 @@ def _report_unused_origin(
 
 def _with_own_origin(fields: YamlMap, joints: Iterable[YamlEntry], result: MacroResult) -> YamlMap:
     """Return the fields of an entry with the origin that the macro gives its joint, if it is not that of the entry."""
-    own = next((one for one in joints if not result.is_placed(one.name)), None)
-    if own is None:
+    if all(result.is_placed(one.name) for one in joints):
         return fields
-    written = own.value.get("origin") if isinstance(own.value, YamlMap) else None
-    return fields.with_value("origin", written) if written else fields.without("origin")
+    own = _own_origin(joints, result)
+    return fields.with_value("origin", own) if own else fields.without("origin")
+
+
+def _own_origin(joints: Iterable[YamlEntry], result: MacroResult) -> YamlNode | None:
+    """Return the origin of the first joint that does not have that of the entry."""
+    own = next((one.value for one in joints if not result.is_placed(one.name)), None)
+    return own.get("origin") if isinstance(own, YamlMap) else None
 
 
 def _with_placed_joints(names: frozenset[str], tree: YamlMap, origin: YamlNode) -> YamlMap:

@@ -113,7 +113,7 @@ class MacroRoles:
                 yield Role(found[1], "link", found[2])
             if element.tag in ("link", "joint") and (found := _FIRST.match(element.get("name") or "")):
                 yield Role(found[1], "prefix_" if found[2] else "prefix")
-            if called := self._called(element, depth):
+            if called := self._called(element, macro, depth):
                 inner = self._of(called, depth + 1)
                 yield from filter(None, (_role_outside(role, called, element) for role in inner))
 
@@ -126,16 +126,20 @@ class MacroRoles:
 
     def _starts_in(self, macro: Macro, depth: int) -> Iterator[str | None]:
         for element in macro.element.walk():
-            if called := self._called(element, depth):
+            if called := self._called(element, macro, depth):
                 yield from (_parameter_outside(one, called, element) for one in self._starts_of(called, depth + 1))
             elif element.tag in ("link", "joint"):
                 found = _FIRST.match(element.get("name") or "")
                 yield found[1] if found and macro.parameter(found[1]) else None
 
-    def _called(self, element: XmlElement, depth: int) -> Macro | None:
+    def _called(self, element: XmlElement, caller: Macro, depth: int) -> Macro | None:
+        """Return the macro that an element calls, which a namespace may have in place of those around it."""
         if depth == _MAX_DEPTH or not element.tag.startswith("xacro:"):
             return None
-        return self._library.macros.get(element.tag.removeprefix("xacro:"))
+        macros, name = self._library.macros, element.tag.removeprefix("xacro:")
+        *spaces, _ = caller.name.split(".")
+        names = (".".join((*spaces[:count], name)) for count in range(len(spaces), -1, -1))
+        return next((macros[one] for one in names if one in macros), None)
 
 
 def _parameter_outside(name: str | None, called: Macro, call: XmlElement) -> str | None:

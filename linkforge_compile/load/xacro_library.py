@@ -18,16 +18,20 @@ if TYPE_CHECKING:
     from linkforge_compile.source.xml_tree import XmlElement
 
 _ARG_USE = re.compile(r"\$\(arg\s+([^\s()]+)\s*\)")
-_SUBSTITUTION = re.compile(r"\$\((find|arg|dirname)\s*([^\s()]*)\s*\)")
+_SUBSTITUTION = re.compile(r"\$\((find|arg|dirname)\s*+([^\s()]*+)\s*+\)")
 _MAX_INCLUDE_DEPTH = 50
+_MAX_FILES = 500
 _COMPUTED_NAME = "its name is known only as xacro runs"
 
 _PARAMETER = re.compile(
     r"""(?P<name>[^\s:=]+)
-    (?:\s*:?=\s*(?P<forward>\^\|?)?(?P<default>(?:\$\{.*?\}|\$\(.*?\)|'.*?'|".*?"|[^\s'"])*)(?=\s|$))?""",
-    re.VERBOSE | re.DOTALL,
+    (?:\s*:?=\s*(?P<forward>\^\|?)?(?P<default>(?:\$\{[^}]*+(?:\}|\Z)|\$\([^)]*+(?:\)|\Z)|'[^']*+'|"[^"]*+"|[^\s'"])*+)(?=\s|$))?""",
+    re.VERBOSE,
 )
-"""A parameter in `params` of a macro: `name`, `name:=default`, `name:=^|default`, `*block` or `**block`."""
+"""A parameter in `params` of a macro: `name`, `name:=default`, `name:=^|default`, `*block` or `**block`.
+
+It never goes back, so that a stranger's file is read in linear time.
+"""
 
 Block = Literal["*", "**"]
 """How a macro inserts a block: the element itself, or what is in it."""
@@ -134,7 +138,7 @@ class _NotFollowedError(Exception):
 
 
 class _Search:
-    """Searches a xacro file and all that it includes, each once."""
+    """Searches a xacro file and all that it includes, each once in each namespace."""
 
     def __init__(self, loader: Loader) -> None:
         self.arguments: dict[str, str | None] = {}
@@ -142,14 +146,18 @@ class _Search:
         self.macros: dict[str, Macro] = {}
         self._notes = Diagnostics()
         self._loader = loader
-        self._seen: set[str] = set()
+        self._seen: set[tuple[str, str]] = set()
+        self._roots: dict[str, XmlElement] = {}
 
     @property
     def notes(self) -> Iterator[Diagnostic]:
         return iter(self._notes)
 
-    def search(self, root: XmlElement, path: Path, depth: int = 0, namespace: str = "") -> None:
-        self._seen.add(identity(path))
+    def search(self, root: XmlElement, path: Path, around: tuple[str, ...] = (), namespace: str = "") -> None:
+        """Search a file with that root; `around` are the files that include it."""
+        file = identity(path)
+        self._seen.add((file, namespace))
+        around = (*around, file)
         for element in root.walk():
             name, included = element.get("name"), element.get("filename")
             if element.tag == "xacro:arg" and name:
@@ -159,29 +167,35 @@ class _Search:
                 self.macros[whole] = Macro(whole, parameters_in(element.get("params") or ""), element)
             elif element.tag == "xacro:include" and included is not None:
                 inner = element.get("ns")
-                self._include(included, element, path, depth, f"{namespace}{inner}." if inner else namespace)
+                self._include(included, element, path, around, f"{namespace}{inner}." if inner else namespace)
         self.used |= dict.fromkeys(_ARG_USE.findall(root.raw))
 
-    def _include(self, name: str, element: XmlElement, user: Path, depth: int, namespace: str) -> None:
+    def _include(self, name: str, element: XmlElement, user: Path, around: tuple[str, ...], namespace: str) -> None:
         try:
             path = user.parent / self._resolve(name, user)
-            if identity(path) in self._seen:
+            file = identity(path)
+            if file in around or (file, namespace) in self._seen:
                 return
-            root = self._open(path, name, element.span, depth)
+            root = self._open(path, name, element.span, len(around))
         except _NotFollowedError as error:
             if element.get("optional") not in ("true", "True", "1"):
                 self._notes.report(ARGUMENTS_NOT_LISTED.at(element.span, path=name, reason=str(error)))
             return
-        self.search(root, path, depth + 1, namespace)
+        self.search(root, path, around, namespace)
 
     def _open(self, path: Path, name: str, place: Span, depth: int) -> XmlElement:
-        if depth == _MAX_INCLUDE_DEPTH:
+        if depth > _MAX_INCLUDE_DEPTH:
             raise _NotFollowedError(f"more than {_MAX_INCLUDE_DEPTH} files include each other")
+        if len(self._seen) > _MAX_FILES:
+            raise _NotFollowedError(f"more than {_MAX_FILES} files are included")
+        if known := self._roots.get(identity(path)):
+            return known
         faults = Diagnostics()
         file = self._loader.open_xml(path, faults, ImportSite(name, place))
         root = _read_root(file, faults) if file else None
         if root is None:
             raise _NotFollowedError(next(iter(faults)).message)
+        self._roots[identity(path)] = root
         return root
 
     def _resolve(self, name: str, user: Path) -> str:

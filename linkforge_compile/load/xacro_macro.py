@@ -256,7 +256,7 @@ def _elements_in(text: str) -> int | None:
         root = parse_xml(SourceFile("<block>", f"<block>{text}</block>")).root
     except MalformedXmlError:
         return None
-    return None if root.text.strip() or not root.children else len(root.children)
+    return None if root.text.strip() else len(root.children)
 
 
 # What the call made

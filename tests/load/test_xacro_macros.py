@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -356,6 +357,12 @@ FAULTS = {
         "'nothing' makes no",
     ),
     "several joints without a parent": ("a: {macro: bumpers}", "LF3021", 5, "'parent' of module 'a' has no default"),
+    "a place of its own without a parent": (
+        "a: {macro: wheel, with: {name: a, xyz: 1 0 0, shape: <sphere radius='1'/>}}",
+        "LF3021",
+        5,
+        "'parent' of module 'a' has no default and must be set; write 'parent: LINK'",
+    ),
     "several joints to no link": (
         "a: {macro: bumpers, parent: dek}",
         "LF4102",
@@ -409,8 +416,38 @@ def test_what_the_user_writes_is_no_expression():
     assert call.request == {
         "macro": "wheel",
         "values": {"name": "$${1+1}$$(arg x)$$${y}", "xyz": "$5"},
-        "blocks": ['<box size="$${z}"/>'],
+        "blocks": ['<box size="\ufdd0{z}"/>'],
     }
+
+
+@pytest.mark.parametrize("nothing", ["''", "[]", "'<!-- none -->'"])
+def test_a_block_of_elements_may_be_empty(nothing: str, folder: Path):
+    (folder / "blocks.xacro").write_text(
+        f"""{ROOT}><xacro:macro name="one" params="*part"><link name="a"><xacro:insert_block name="part"/></link>
+        </xacro:macro><xacro:macro name="any" params="**part"><link name="a"/><xacro:insert_block name="part"/>
+        </xacro:macro></robot>""",
+        "utf-8",
+    )
+    spec = folder / "cell.robot.yaml"
+    text = f"linkforge: 1\nname: cell\nmodules: {{m: {{use: blocks.xacro, macro: any, with: {{part: {nothing}}}}}}}\n"
+    spec.write_text(text, "utf-8")
+    assert [link.name for link in compile_file(spec).result().links] == ["m_a"]
+    spec.write_text(text.replace("any", "one"), "utf-8")
+    assert codes(compile_file(spec)) == [("LF8036", 3)]
+
+
+def test_a_block_that_a_macro_passes_on_is_no_expression_either(folder: Path):
+    (folder / "passed.xacro").write_text(
+        f"""{ROOT}><xacro:macro name="inner" params="**more"><xacro:insert_block name="more"/></xacro:macro>
+        <xacro:macro name="outer" params="**more"><link name="a"/>
+        <xacro:inner><rest><xacro:insert_block name="more"/></rest></xacro:inner></xacro:macro></robot>""",
+        "utf-8",
+    )
+    (folder / "texts.yaml").write_text("more: '<gazebo><cost>$$5 ${1 + 1} $(arg a)</cost></gazebo>'", "utf-8")
+    spec = folder / "cell.robot.yaml"
+    entry = "use: passed.xacro, macro: outer, with: {more: $(d.more)}"
+    spec.write_text(f"linkforge: 1\nname: cell\ndata: {{d: texts.yaml}}\nmodules: {{a: {{{entry}}}}}\n", "utf-8")
+    assert "<cost>$$5 ${1 + 1} $(arg a)</cost>" in compile_file(spec).result().export_urdf()
 
 
 MAPPED = f"""{ROOT}>
@@ -496,6 +533,10 @@ def test_params_lists_macros(folder: Path):
     camera = next(block for block in blocks if block.startswith("macro camera")).splitlines()
     assert [line.split()[-1] for line in camera[1:]] == ["parent)", "origin)", "origin)"]
     assert any(block.startswith("macro disc") for block in blocks)
+    listed = json.loads(linkforge("params", "parts.xacro", "--format", "json", cwd=folder).stdout)["macros"]
+    (lidar_parameters,) = (one["parameters"] for one in listed if one["name"] == "lidar")
+    fields = {"prefix": "prefix", "parent": "parent", "origin": "origin", "radius": None}
+    assert {one["name"]: one["field"] for one in lidar_parameters} == fields
 
 
 @pytest.mark.parametrize("calls", [1, 2])
@@ -551,3 +592,47 @@ def test_macros_of_a_namespace_have_its_name(folder: Path):
     library = read_library(folder / "all.xacro", Loader(), Diagnostics())
     assert library
     assert "lib.lidar" in library.macros
+
+
+def test_a_file_is_included_once_in_each_namespace(folder: Path):
+    uses = '<xacro:include filename="parts.xacro"/><xacro:include filename="parts.xacro" ns="lib"/>'
+    (folder / "all.xacro").write_text(f"{ROOT}>{uses}</robot>", "utf-8")
+    spec = folder / "cell.robot.yaml"
+    entry = "use: all.xacro, macro: lib.lidar, parent: deck, with: {radius: 2}"
+    spec.write_text(f"linkforge: 1\nname: cell\nlinks: {{deck: }}\nmodules: {{a: {{{entry}}}}}\n", "utf-8")
+    assert [link.name for link in compile_file(spec).result().links] == ["deck", "a_laser"]
+
+
+def test_a_macro_of_a_namespace_calls_those_beside_it(folder: Path):
+    (folder / "prefixed.xacro").write_text(
+        f"""{ROOT}><xacro:macro name="inner" params="prefix"><link name="${{prefix}}_a"/></xacro:macro>
+        <xacro:macro name="outer" params="prefix"><xacro:inner prefix="${{prefix}}"/></xacro:macro></robot>""",
+        "utf-8",
+    )
+    other = '<xacro:macro name="inner" params="prefix"><link name="b"/></xacro:macro>'
+    include = '<xacro:include filename="prefixed.xacro" ns="lib"/>'
+    (folder / "all.xacro").write_text(f"{ROOT}>{include}{other}</robot>", "utf-8")
+    done = linkforge("params", "all.xacro", cwd=folder)
+    outer = next(block for block in done.stdout.split("\n\n") if block.startswith("macro lib.outer"))
+    assert "(the module's prefix)" in outer
+
+
+@pytest.mark.parametrize("names", [("x", "x"), ("x", "y")])
+def test_files_that_include_one_another_in_namespaces_come_to_an_end(names: tuple[str, str], folder: Path):
+    count = 30
+    for number in range(count):
+        uses = "".join(f'<xacro:include filename="{(number + 1) % count}.xacro" ns="{name}"/>' for name in names)
+        (folder / f"{number}.xacro").write_text(
+            f'{ROOT}>{uses}<xacro:macro name="m" params=""><link name="a"/></xacro:macro></robot>', "utf-8"
+        )
+    library = read_library(folder / "0.xacro", Loader(), Diagnostics())
+    assert library
+    assert {".".join("x" * depth + "m") for depth in range(count)} <= {*library.macros}
+    assert any("more than 500 files" in one.message for one in library.notes) == (names == ("x", "y"))
+
+
+@pytest.mark.parametrize("params", ["a:=" + "${}" * 5_000 + "'", "a:=" + "${" * 50_000, "a:=" + "'b'" * 50_000 + '"'])
+def test_hostile_parameters_are_read_in_linear_time(params: str):
+    start = time.perf_counter()
+    assert parameters_in(params)[0].name == "a"
+    assert time.perf_counter() - start < 5

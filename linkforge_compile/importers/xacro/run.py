@@ -102,7 +102,11 @@ class MacroCall(NamedTuple):
     def request(self) -> dict[str, object]:
         # What the user wrote is data, in which xacro evaluates nothing.
         values = {name: _escaped(value) for name, value in self.values.items()} | dict(self.expressions)
-        return {"macro": self.macro, "values": values, "blocks": list(map(_escaped, self.blocks))}
+        return {"macro": self.macro, "values": values, "blocks": [one.replace("$", _DOLLAR) for one in self.blocks]}
+
+
+_DOLLAR = "\ufdd0"
+"""Stands for `$` in a block, which xacro evaluates once more at each macro that passes it on."""
 
 
 def _escaped(text: str) -> str:
@@ -171,7 +175,8 @@ def _outcome(answer: _Answer) -> Expanded | Failed:
     arguments = {name: parse_mark(place) for name, place in answer["arguments"].items()}
     wanted = tuple(answer["wanted"])
     if "text" in answer:
-        return Expanded(answer["text"], files, read, arguments, wanted, tuple(answer["warnings"]))
+        text = answer["text"].replace(_DOLLAR, "$")
+        return Expanded(text, files, read, arguments, wanted, tuple(answer["warnings"]))
     place, file = answer.get("place"), answer.get("file")
     return Failed(
         answer["error"],
