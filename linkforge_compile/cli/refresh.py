@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.diff_text import difference_lines
@@ -14,10 +14,10 @@ from linkforge_compile.cli.options import Parser, packages_of, parse_packages, s
 from linkforge_compile.cli.reports import print_failure, print_status, progress_after, report
 from linkforge_compile.cli.specs import count
 from linkforge_compile.diagnostics import Diagnostic, Severity
-from linkforge_compile.roots import identity, is_file
+from linkforge_compile.roots import Roots, identity, is_file
 
 if TYPE_CHECKING:
-    from linkforge_compile.analysis import Settings
+    from linkforge_compile.analysis import Packages, Settings
     from linkforge_compile.importers.origin import Head
     from linkforge_compile.importing import Import
 
@@ -27,16 +27,17 @@ def refresh(arguments: argparse.Namespace, add_arguments: Callable[[Parser], Non
 
     `add_arguments` adds those of `linkforge import`, with which the command in the spec is read.
     """
-    parser = Parser(prog="linkforge import", exit_on_error=False)
-    add_arguments(parser)
     spec = _spec_of(arguments)
-    before = spec.read_text("utf-8")
+    # Bytes that are no text are no part of what an import wrote.
+    before = spec.read_text("utf-8", "replace")
     head = _head_of(spec, before)
     if head.is_edited and not arguments.force:
         raise UsageError(
             f"'{spec}' was edited since its import, and a refresh would undo that; move the edits to the `override` of "
             "a spec that uses it, or use --force to lose them"
         )
+    parser = _HeadParser(spec)
+    add_arguments(parser)
     with progress_after(f"reading {spec}", arguments):
         imported = _import_again(spec, parser.parse_words(head.words), arguments)
     is_faulty = report(imported.diagnostics, arguments) or imported.has_errors
@@ -55,6 +56,17 @@ def refresh(arguments: argparse.Namespace, add_arguments: Callable[[Parser], Non
 
     write_document(after, spec, arguments)
     return FAULTY_SPEC if is_faulty or no_longer_fits else OK
+
+
+class _HeadParser(Parser):
+    """Parses the command at the top of a spec; what is wrong in it is wrong in the spec."""
+
+    def __init__(self, spec: Path) -> None:
+        super().__init__(add_help=False)
+        self._spec = spec
+
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"the command at the top of '{self._spec}' is wrong: {message}; correct it")
 
 
 def _spec_of(arguments: argparse.Namespace) -> Path:
@@ -88,16 +100,34 @@ def _import_again(spec: Path, written: argparse.Namespace, arguments: argparse.N
 
     if written.allow_outside and not arguments.allow_outside:
         raise UsageError(f"'{spec}' was imported with --allow-outside; add it if you trust the files that it names")
-    (robot,), assignments = split_assignments(written.words)
-    folder = spec.parent
+    robots, assignments = split_assignments(written.words)
+    if len(robots) != 1:
+        raise UsageError(f"the command at the top of '{spec}' names {count(len(robots), 'robot')}; correct it")
+    folder, given = spec.parent, packages_of(arguments)
+    robot, srdf = folder / robots[0], folder / written.srdf if written.srdf else None
+    packages = {name: place for name, place in _packages_in(spec, written).items() if name not in given}
+    if not arguments.allow_outside:
+        _require_inside(spec, [robot, *([srdf] if srdf else []), *map(Path, packages.values())], given)
     return import_urdf(
-        folder / robot,
-        srdf=folder / written.srdf if written.srdf else None,
+        robot,
+        srdf=srdf,
         arguments=assignments,
-        packages={**_packages_in(spec, written), **packages_of(arguments)},
+        packages={**packages, **given},
         allow_outside=arguments.allow_outside,
         output=folder,
     )
+
+
+def _require_inside(spec: Path, named: Iterable[Path], packages: Packages) -> None:
+    """Refuse files and folders that the spec, which may be a stranger's, names outside of what it may read."""
+    roots = Roots.around(spec, (Path(), *map(Path, packages.values())))
+    for path in named:
+        if not roots.hold(path):
+            raise UsageError(
+                f"the command at the top of '{spec}' names '{path}', which is outside of the folders that a spec may "
+                f"read: {roots}; run this in a folder around both, name the folder with --package NAME=FOLDER, or use "
+                "--allow-outside if you trust the spec"
+            )
 
 
 def _packages_in(spec: Path, written: argparse.Namespace) -> dict[str, str]:

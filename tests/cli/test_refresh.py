@@ -154,6 +154,48 @@ def test_a_refresh_of_anything_else_is_wrong_usage(words: tuple[str, ...], messa
     assert message in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("", "is wrong: the following arguments are required: ROBOT.urdf"),
+        ("a.urdf b.urdf", "names 2 robots"),
+        ("a.urdf --frobnicate", "is wrong: unrecognized arguments: --frobnicate"),
+        ("a.urdf --help", "is wrong: unrecognized arguments: --help"),
+        ("/etc/arm.urdf", "names '/etc/arm.urdf', which is outside of the folders that a spec may read"),
+        ("../../../arm.urdf", "which is outside of"),
+        ("../vendor/arm.urdf --srdf /etc/arm.srdf", "names '/etc/arm.srdf', which is outside of"),
+        ("../vendor/arm.urdf --package x=/etc", "names '/etc', which is outside of"),
+    ],
+)
+def test_a_strangers_command_is_checked(words: str, message: str, cell: Path):
+    spec = cell / "specs/arm.robot.yaml"
+    text = spec.read_text("utf-8")
+    spec.write_text(text.replace("../vendor/arm.urdf", words, 1), "utf-8")
+    code, _, (found,) = refresh(cell)
+    assert code == 2
+    assert "the command at the top of 'specs/arm.robot.yaml'" in found
+    assert message in found
+
+
+def test_a_file_outside_is_read_if_it_is_allowed(cell: Path, tmp_path_factory: pytest.TempPathFactory):
+    other = tmp_path_factory.mktemp("other")
+    (cell / "vendor/arm.urdf").rename(other / "arm.urdf")
+    spec = cell / "specs/arm.robot.yaml"
+    text = spec.read_text("utf-8")
+    spec.write_text(text.replace("../vendor/arm.urdf", str(other / "arm.urdf"), 1), "utf-8")
+    assert refresh(cell)[0] == 2
+    assert refresh(cell, "--package", f"arm_description={other}", "--check")[0] == 1
+    assert refresh(cell, "--allow-outside", "--check")[0] == 1
+
+
+def test_bytes_that_are_no_text_are_an_edit(cell: Path):
+    spec = cell / "specs/arm.robot.yaml"
+    spec.write_bytes(spec.read_bytes() + b"# \xff\n")
+    code, _, (message,) = refresh(cell)
+    assert code == 2
+    assert "was edited since its import" in message
+
+
 def test_a_vendors_file_that_is_gone_is_an_error(cell: Path):
     (cell / "vendor/arm.urdf").unlink()
     code, _, (message,) = refresh(cell)

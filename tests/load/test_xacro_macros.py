@@ -533,7 +533,7 @@ def test_params_lists_macros(folder: Path):
     camera = next(block for block in blocks if block.startswith("macro camera")).splitlines()
     assert [line.split()[-1] for line in camera[1:]] == ["parent)", "origin)", "origin)"]
     assert any(block.startswith("macro disc") for block in blocks)
-    listed = json.loads(linkforge("params", "parts.xacro", "--format", "json", cwd=folder).stdout)["macros"]
+    listed = json.loads(linkforge("params", "parts.xacro", "--json", cwd=folder).stdout)["macros"]
     (lidar_parameters,) = (one["parameters"] for one in listed if one["name"] == "lidar")
     fields = {"prefix": "prefix", "parent": "parent", "origin": "origin", "radius": None}
     assert {one["name"]: one["field"] for one in lidar_parameters} == fields

@@ -182,6 +182,23 @@ def test_names_that_check_refuses_are_not_offered(editor: Editor, tmp_path: Path
     assert [label for label in labels_at(editor, file, text) if label in names] == offered.split()
 
 
+def test_of_a_macros_parameters_those_that_a_field_gives_come_last(editor: Editor, tmp_path: Path):
+    (tmp_path / "parts.xacro").write_text(
+        """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+        <xacro:macro name="lidar" params="prefix parent *origin radius:=1 topic"><link name="${prefix}l"/>
+        <joint name="${prefix}j" type="fixed"><xacro:insert_block name="origin"/><parent link="${parent}"/>
+        <child link="${prefix}l"/></joint></xacro:macro></robot>"""
+    )
+    cell = tmp_path / "cell.robot.yaml"
+    entry = "linkforge: 1\nname: cell\nmodules:\n  arm:\n    use: parts.xacro\n    macro: lidar\n"
+    editor.open(cell, entry)
+    editor.diagnostics(cell)
+    items = completions(editor, cell, *split_at_cursor(entry + "    with: {¦}\n"))
+    in_order = [item.label for item in sorted(items, key=lambda item: item.sort_text or "")]
+    assert in_order[:2] == ["topic", "radius"]
+    assert {*in_order[2:]} == {"prefix", "parent", "origin"}
+
+
 def test_files_outside_of_what_a_spec_may_read_are_not_offered(editor: Editor, tmp_path: Path):
     (tmp_path / "rest" / "secret").mkdir(parents=True)
     (tmp_path / "robot" / "meshes").mkdir(parents=True)

@@ -23,7 +23,7 @@ def offer_arguments(context: Context) -> list[Offer]:
             one.name,
             one.name if ends else f"{one.name}: $0",
             Kind.Variable,
-            REQUIRED if one.is_required else LIKELY,
+            REQUIRED if one.is_required else KNOWN if one.field else LIKELY,
             facts_of(one),
             one.description,
             one.description,
