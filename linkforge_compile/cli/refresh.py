@@ -18,6 +18,7 @@ from linkforge_compile.roots import Roots, identity, is_file
 
 if TYPE_CHECKING:
     from linkforge_compile.analysis import Packages, Settings
+    from linkforge_compile.core import Robot
     from linkforge_compile.importers.origin import Head
     from linkforge_compile.importing import Import
 
@@ -47,8 +48,10 @@ def refresh(arguments: argparse.Namespace, add_arguments: Callable[[Parser], Non
     if after == before:
         print_status(f"{spec} is up to date", arguments)
         return FAULTY_SPEC if is_faulty else OK
-    _print_differences(spec, after, arguments)
-    no_longer_fits = _report_users(spec, after, arguments)
+    with progress_after("compiling the specs that use it", arguments):
+        users = list(_users_of(spec, after, arguments))
+    _print_differences(spec, after, users, arguments)
+    no_longer_fits = _report_users(users, arguments)
     if arguments.check:
         print_status(f"{spec} would be written", arguments)
         return FAULTY_SPEC
@@ -145,9 +148,10 @@ def _without_detour(folder: str) -> str:
     return plain if os.path.realpath(plain) == os.path.realpath(folder) else folder
 
 
-def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) -> None:
-    """Print what differs in the robot of the spec, if it can be compiled before and after."""
+def _print_differences(spec: Path, after: str, users: Iterable[_User], arguments: argparse.Namespace) -> None:
+    """Print what differs in the robot of the spec, if it can be compiled before and after, and what overrides hide."""
     from linkforge_compile.analysis import analyse_path
+    from linkforge_compile.cli.hidden_changes import with_hidden_marked
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import compare, removed_public_names
 
@@ -156,6 +160,7 @@ def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) ->
         return
     differences = compare(old, new)
     if differences:
+        differences = with_hidden_marked(differences, new, filter(None, (user.robot for user in users)))
         labels = (f"{spec} as it is", "as imported now")
         lines = difference_lines(labels, differences, removed_public_names(old, new))
         write_to_stdout("".join(f"{line}\n" for line in lines))
@@ -164,20 +169,19 @@ def _print_differences(spec: Path, after: str, arguments: argparse.Namespace) ->
 
 
 class _User(NamedTuple):
-    """A spec that reads the refreshed one, and the diagnostics that it did not have before."""
+    """A spec that reads the refreshed one, the diagnostics that it did not have before, and its robot, if any."""
 
     spec: Path
     news: tuple[Diagnostic, ...]
+    robot: Robot | None
 
     @property
     def fits(self) -> bool:
         return all(one.severity is not Severity.ERROR for one in self.news)
 
 
-def _report_users(spec: Path, after: str, arguments: argparse.Namespace) -> bool:
-    """Report what is new in the specs that use this one, below its folder and this one; True if there are errors."""
-    with progress_after("compiling the specs that use it", arguments):
-        users = list(_users_of(spec, after, arguments))
+def _report_users(users: Iterable[_User], arguments: argparse.Namespace) -> bool:
+    """Report what is new in the specs that use the refreshed one; True if there are errors."""
     is_faulty = report((one for user in users for one in user.news), arguments)
     for user in users:
         if user.fits:
@@ -189,6 +193,7 @@ def _report_users(spec: Path, after: str, arguments: argparse.Namespace) -> bool
 
 
 def _users_of(spec: Path, after: str, arguments: argparse.Namespace) -> Iterator[_User]:
+    """Compile the specs below the working folder, and below that of the spec, that use it."""
     from linkforge_compile.analysis import analyse_path
 
     old, new = _settings(spec, after, arguments)
@@ -196,8 +201,9 @@ def _users_of(spec: Path, after: str, arguments: argparse.Namespace) -> Iterator
         before = analyse_path(other, old).compilation
         if identity(spec) in map(identity, before.files):
             known = {(one.code, one.message) for one in before.diagnostics}
-            now = analyse_path(other, new).compilation.diagnostics
-            yield _User(other, tuple(one for one in now if (one.code, one.message) not in known))
+            now = analyse_path(other, new).compilation
+            news = tuple(one for one in now.diagnostics if (one.code, one.message) not in known)
+            yield _User(other, news, now.robot)
 
 
 def _settings(spec: Path, after: str, arguments: argparse.Namespace) -> tuple[Settings, Settings]:

@@ -69,6 +69,21 @@ def test_a_change_comes_in_below_the_override(cell: Path):
     assert refresh(cell)[2] == ["specs/arm.robot.yaml is up to date"]
 
 
+def test_a_change_that_an_override_hides_is_marked(cell: Path):
+    (cell / "second.robot.yaml").write_text(CELL.replace("cell", "second").replace("2 kg", "3 kg"), "utf-8")
+    (cell / "plain.robot.yaml").write_text(
+        "linkforge: 1\nname: plain\nmodules: {arm: {use: specs/arm.robot.yaml}}\n", "utf-8"
+    )
+    release(cell, 'mass value="1"', 'mass value="1.5"')
+    release(cell, 'upper="1"', 'upper="0.5"')
+    code, printed, _ = refresh(cell)
+    assert code == 0
+    (mass,) = (line for line in printed.splitlines() if "mass" in line)
+    assert mass.endswith(", hidden by the overrides at cell.robot.yaml:5, second.robot.yaml:5")
+    (upper,) = (line for line in printed.splitlines() if "limits/upper" in line)
+    assert "hidden" not in upper
+
+
 @pytest.mark.parametrize("options", [(), ("--check",)])
 def test_an_override_that_no_longer_fits_is_an_error_at_its_place(options: tuple[str, ...], cell: Path):
     release(cell, "tool0", "flange")
