@@ -11,21 +11,23 @@ from linkforge_compile.migration.symbols import BOOLEAN, UNSET, Symbol
 MOST_COMBINATIONS = 32
 """More are not all compared: then the given values, each other value alone, and each two of them together."""
 
+OTHER_WORD = "none_of_these"
+"""A word that no condition compares with, for which all are false; a xacro that refuses it knows all its words."""
+
 Arguments = Mapping[str, str]
 
 
 def domain_of(symbol: Symbol, given: str | None, default: str | None) -> tuple[str, ...]:
-    """Return the values of an argument that matter: of a boolean both, else those that it is compared with."""
+    """Return the values of an argument to compare: of a boolean both, else those of conditions, and another one."""
     base = given if given is not None else default
     values: dict[str, None] = {} if base is None else {base: None}
     if symbol.constant is not UNSET:
         return () if given is None else (given,)
     if symbol.kind == BOOLEAN:
         values |= dict.fromkeys(("true", "false")) if base not in ("True", "False") else {"True": None, "False": None}
-    else:
+    elif symbol.choices:
         values |= dict.fromkeys(symbol.choices)
-        if len(symbol.choices) == len(values) == 1:  # without another value, the conditions have one outcome
-            values |= dict.fromkeys(f"not_{choice}" for choice in symbol.choices)
+        values[OTHER_WORD] = None
     return tuple(values)
 
 

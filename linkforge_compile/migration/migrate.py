@@ -12,7 +12,7 @@ from typing import TypedDict
 
 from linkforge_compile.migration.attachment import find_attachment, outer_parts, repeated_parts
 from linkforge_compile.migration.calls import Calls, Plan, no_module
-from linkforge_compile.migration.combinations import domain_of
+from linkforge_compile.migration.combinations import Arguments, combinations_of, domain_of
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
@@ -71,11 +71,17 @@ class Migration:
     @property
     def domains(self) -> dict[str, tuple[str, ...]]:
         """The values of each argument for which the specs are proved, the given one first."""
-        expander = self.expander
-        return {
-            name: domain_of(symbol, expander.given.get(name), _default(symbol))
-            for name, symbol in expander.arguments.items()
-        }
+        given, symbols = self.expander.given, self.expander.arguments
+        return {name: domain_of(symbol, given.get(name), _default(symbol)) for name, symbol in symbols.items()}
+
+    @property
+    def combinations(self) -> list[Arguments]:
+        """The arguments for which the specs are proved, the given ones first; defaults are left out."""
+        given, symbols = self.expander.given, self.expander.arguments
+        return [
+            {name: value for name, value in one.items() if name in given or value != _default(symbols[name])}
+            for one in combinations_of(self.domains)
+        ]
 
 
 def _default(symbol: Symbol) -> str | None:

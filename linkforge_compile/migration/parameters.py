@@ -26,6 +26,8 @@ from linkforge_compile.migration.symbols import (
 from linkforge_compile.migration.values import Values
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlList, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import scalar_value
+from linkforge_compile.units import number_text
 
 _INSTEAD = {"prefix": "name_prefix", "name": "base_name"}
 """Names for those that always mean something else in an expression."""
@@ -54,9 +56,18 @@ def type_of(symbol: Symbol) -> str:
         return "vector" if symbol.size == 3 else "list"
     if symbol.kind in (BOOLEAN, MAP):
         return symbol.kind
+    if symbol.kind == NUMBER and symbol.is_in_text and not symbol.dimensions and _is_spelled(symbol):
+        return "string"
     if symbol.kind == NUMBER:
         return next(iter(symbol.dimensions)) if len(symbol.dimensions) == 1 else "number"
     return "string"
+
+
+def _is_spelled(symbol: Symbol) -> bool:
+    """Whether the default is a number that is not written as it is computed, such as the version 1.10."""
+    text = "".join(map(str, symbol.value or ()))
+    number = scalar_value(text)
+    return isinstance(number, int | float) and number_text(number) != text
 
 
 def is_file(symbol: Symbol) -> bool:
@@ -96,6 +107,9 @@ def _default(symbol: Symbol, parts: Parts, values: Values, where: Span) -> YamlN
     if kind == "string" and literal is not UNSET and not is_literal(parts):
         parts = (str(literal),)
     elif kind not in ("string", "vector", "list") and is_literal(parts):
+        text = "".join(map(str, parts))
+        if scalar_value(text) == literal:  # plugins read `1.10` and `True` as they are spelled
+            return YamlScalar(text, scalar_value(text), where)
         parts = as_parts(value_of(parts)) or ("",)
     return values.value(parts, where, symbol.kind)
 

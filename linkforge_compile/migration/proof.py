@@ -11,7 +11,7 @@ from linkforge_compile.compare import compare
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.importing import as_read_back, import_urdf
-from linkforge_compile.migration.combinations import Arguments
+from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
 from linkforge_compile.pipeline import compile_path, compile_text
 
 if TYPE_CHECKING:
@@ -47,7 +47,8 @@ class Prover:
 
     def compare(self, spec: Path, names: Mapping[str, str], combinations: Iterable[Arguments]) -> list[Comparison]:
         """Return the comparison of each combination; `names` are those of the parameters by argument."""
-        return [self._compared(spec, names, arguments) for arguments in combinations]
+        compared = (self._compared(spec, names, arguments) for arguments in combinations)
+        return [one for one in compared if not (one.refused and OTHER_WORD in one.arguments.values())]
 
     def compiled(self, spec: Path, names: Mapping[str, str], combinations: Iterable[Arguments]) -> Iterator[Robot]:
         """Yield the robots that a spec compiles to."""

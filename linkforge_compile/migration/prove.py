@@ -12,7 +12,7 @@ from pathlib import Path
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
 from linkforge_compile.diagnostics.codes.importing import XACRO_KEPT
 from linkforge_compile.load import Loader
-from linkforge_compile.migration.combinations import Arguments, combinations_of
+from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Migration, Settled, migrate, stem_of
@@ -103,7 +103,7 @@ class Migrator:
         """Return the specs without the inertias that are those of the shapes."""
         if _failures(comparisons):
             return migration, comparisons
-        combinations = combinations_of(migration.domains)[:_MOST_COMPILED]
+        combinations = migration.combinations[:_MOST_COMPILED]
         with self._in_files(migration.files) as folder:
             robots = prover.compiled(folder / migration.main, migration.names, combinations)
             computed = computed_inertias(robots)
@@ -133,7 +133,7 @@ class Migrator:
         if isinstance(migration, CannotTranslateError):
             return self._kept(migration, prover)
         spec = self.folder / migration.main
-        comparisons = prover.compare(spec, migration.names, combinations_of(migration.domains))
+        comparisons = prover.compare(spec, migration.names, migration.combinations)
         figures = figures_of(migration, comparisons)
         faults = list(faults_of(comparisons))
         return Proved(migration.main, migration.files, comparisons, faults, figures, migration.names)
@@ -160,7 +160,7 @@ class Migrator:
     ) -> list[Comparison]:
         """Compare the specs, written into a temporary folder beside their own, for all combinations or some."""
         if combinations is None:
-            combinations = combinations_of(migration.domains)
+            combinations = migration.combinations
         with self._in_files(migration.files) as folder:
             return prover.compare(folder / migration.main, migration.names, combinations)
 

@@ -45,6 +45,10 @@ class Figures(NamedTuple):
     lines_before: int
     files_after: int
     lines_after: int
+    varied: tuple[str, ...]
+    """The arguments with several values in the proof."""
+    settled: tuple[str, ...]
+    """The other arguments, of which only one value is compared."""
     combinations: int
     equal: int
     unproved: int
@@ -80,6 +84,8 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
         lines_before=sum(text.count("\n") for text in texts),
         files_after=len(migration.files),
         lines_after=sum(text.count("\n") for text in migration.files.values()),
+        varied=tuple(name for name, values in migration.domains.items() if len(values) > 1),
+        settled=tuple(name for name, values in migration.domains.items() if len(values) <= 1),
         combinations=len(comparisons),
         equal=sum(one.is_equal for one in comparisons),
         unproved=sum(one.refused is not None for one in comparisons),
@@ -90,6 +96,9 @@ def lines_of(figures: Figures) -> Iterator[str]:
     """Yield the lines of a report."""
     proved = f"{figures.equal} of {_counted(figures.combinations, 'combination')} of its arguments are the same robot"
     yield f"proof       {proved}" + (f", {figures.unproved} cannot be compared" if figures.unproved else "")
+    if figures.varied or figures.settled:
+        one_value = f"; with one value: {', '.join(figures.settled)}" if figures.settled else ""
+        yield f"arguments   varied: {', '.join(figures.varied) or 'none'}{one_value}"
     kept = f", {figures.kept} stay in xacro" if figures.kept else ""
     macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
     yield f"macros      {figures.macros}: {macros}"
@@ -136,4 +145,4 @@ def faults_of(comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
 
 
 def _words(arguments: Arguments) -> str:
-    return " ".join(f"{name}:={value}" for name, value in arguments.items()) or "no arguments"
+    return " ".join(f"{name}:={value}" for name, value in arguments.items()) or "all defaults"

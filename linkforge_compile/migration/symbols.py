@@ -95,6 +95,8 @@ class Symbol:
     """Whether it names a file of data."""
     is_written: bool = False
     """Whether its text is written into the robot."""
+    is_in_text: bool = False
+    """Whether it is a piece of a text, as it was given."""
     is_argument: bool = False
     """Whether it is an argument of the whole robot."""
 

@@ -173,9 +173,11 @@ class Writer:
                 pieces.append(part)
                 continue
             literal = literal_of(part)
+            if isinstance(part, Reference) and part.is_as_given and len(parts) > 1:
+                part.symbol.is_in_text = True
             if literal is not UNSET:
                 pieces.append(_python_text(literal))
-            elif _is_boolean(part) and not getattr(part, "is_as_given", False):
+            elif _is_boolean(part) and not _is_given_in_lower_case(part):
                 word = ast.IfExp(test=part, body=constant("True"), orelse=constant("False"))
                 pieces.append(self.placeholders.number(word))
             else:
@@ -193,6 +195,11 @@ class Writer:
         if isinstance(known, float) and str(known) != number_text(known):
             return str(known)
         return self.placeholders.number(node)
+
+
+def _is_given_in_lower_case(node: ast.expr) -> bool:
+    """Whether a boolean is an argument as it was given, and not in the words of Python by default."""
+    return isinstance(node, Reference) and node.is_as_given and node.symbol.value not in (("True",), ("False",))
 
 
 def _is_boolean(node: ast.expr) -> bool:

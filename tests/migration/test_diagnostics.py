@@ -40,7 +40,7 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     spec.write_text(spec.read_text("utf-8").replace("mu1: 0.5", "mu1: 0.6"), "utf-8")
     ran = linkforge(*verify, cwd=tmp_path)
     assert ran.returncode == 1
-    assert "with long:=false, the specs are another robot: " in ran.stderr  # LF8040
+    assert "with all defaults, the specs are another robot: " in ran.stderr  # LF8040
 
 
 def test_other_content_is_replaced_only_by_force(tmp_path: Path):

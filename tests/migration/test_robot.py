@@ -197,7 +197,7 @@ def test_a_property_that_is_an_argument_is_the_parameter_and_its_values_are_prov
         """,
     )
     assert "model_2" not in made.robot
-    assert [one.arguments for one in made.proved.comparisons] == [{"model": "large"}, {"model": "not_large"}]
+    assert [one.arguments for one in made.proved.comparisons] == [{}, {"model": "none_of_these"}]
 
 
 def test_a_property_that_a_condition_sets_is_forwarded_to_a_macro_under_the_condition(tmp_path: Path):
@@ -213,3 +213,20 @@ def test_a_property_that_a_condition_sets_is_forwarded_to_a_macro_under_the_cond
         """,
     )
     assert "radius: $(0.2 if model == 'large' else 0.1)" in made.robot
+
+
+def test_the_text_of_a_default_is_that_of_the_xacro(tmp_path: Path):
+    made = migrated(
+        tmp_path,
+        f"""
+        <xacro:arg name="serial" default="00123"/>
+        <xacro:arg name="version" default="1.10"/>
+        <xacro:arg name="debug" default="True"/>
+        {LINK}
+        <gazebo><plugin name="p" filename="f">
+          <serial>$(arg serial)</serial><label>v$(arg version)</label><debug>$(arg debug)</debug>
+        </plugin></gazebo>
+        """,
+    )
+    assert 'serial: 00123\n  version: "1.10"\n' in made.robot
+    assert made.proved.comparisons[0].arguments == {}
