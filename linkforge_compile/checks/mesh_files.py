@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from linkforge_compile.checks.bounding import BoundingBox, BoundingVolume, ScanBudget, bounding_volume, corners_of_scene
+from linkforge_compile.core.meshes import IS_LFS_POINTER, LFS_POINTER
 from linkforge_compile.core.meshes.stl import HEADER, TRIANGLE, count_triangles, cut_off, is_binary, is_text
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Collision, Link, Visual
@@ -39,8 +40,6 @@ PIECES, PIECE_SIZE = 8, 8192
 
 MAX_MISSING_PACKAGES = 500
 """After so many packages that are not found, only those whose folders are declared are searched for."""
-
-LFS_POINTER = b"version https://git-lfs"
 
 _CORNER = re.compile(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+(\S{1,40})(?=\s)", re.MULTILINE)
 """A corner in OBJ, or in an STL of text."""
@@ -216,7 +215,7 @@ def scan_mesh(path: Path, budget: ScanBudget) -> MeshScan:
             if not start.strip():
                 return MeshScan(fault="it is empty")
             if start.startswith(LFS_POINTER):
-                return MeshScan(fault="it is a pointer of Git LFS; run 'git lfs pull'")
+                return MeshScan(fault=IS_LFS_POINTER)
             ending, count = path.suffix.lower(), count_triangles(start)
             if ending == ".stl" and is_binary(start, length):
                 corners = _corners_of_triangles(stream, count)

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkforge_compile.checks.mesh_files import LFS_POINTER
+from linkforge_compile.core.meshes import IS_LFS_POINTER, LFS_POINTER
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Visual
 from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
@@ -66,13 +66,13 @@ class MissingFile(NamedTuple):
 class RobotFiles(NamedTuple):
     """The files of a robot by digest, the digests of those that its shapes name, and those that are missing.
 
-    `uses` has the shapes that name a file, by its digest. `paths` are those of all files on which these depend; some
+    `users` has the shapes that name a file, by its digest. `paths` are those of all files on which these depend; some
     may not exist.
     """
 
     files: Mapping[str, File] = MappingProxyType({})
     digests: Mapping[str, str] = MappingProxyType({})
-    uses: Mapping[str, Use] = MappingProxyType({})
+    users: Mapping[str, Use] = MappingProxyType({})
     missing: Sequence[MissingFile] = ()
     paths: Sequence[Path] = ()
 
@@ -88,17 +88,17 @@ class _Wanted(NamedTuple):
 def collect_files(robot: Robot, most: int | None = None) -> RobotFiles:
     """Read the meshes and textures of a robot, and the files that they name; `most` bytes, None for MAX_ALL_BYTES."""
     reader = _Reader(robot, MAX_ALL_BYTES if most is None else most)
-    digests, uses, missing = dict[str, str](), dict[str, Use](), list[MissingFile]()
+    digests, users, missing = dict[str, str](), dict[str, Use](), list[MissingFile]()
     for resource, wanted in _wanted_files(robot).items():
         use = Use(resource, tuple(wanted.links), wanted.place)
         try:
             digests[resource] = reader.read(resource, wanted.kinds)
-            uses.setdefault(digests[resource], use)
+            users.setdefault(digests[resource], use)
         except UnreadableError as error:
             missing.append(MissingFile(resource, str(error), use))
         missing += (MissingFile(f"{name} in {resource}", reason, use) for name, reason in reader.take_faults())
     paths = dict.fromkeys((*reader.paths, *places_of_files(robot, (*mesh_paths(robot), *texture_paths(robot)))))
-    return RobotFiles(reader.files, digests, uses, missing, tuple(paths))
+    return RobotFiles(reader.files, digests, users, missing, tuple(paths))
 
 
 def not_reported(missing: Iterable[MissingFile], diagnostics: Iterable[Diagnostic]) -> list[MissingFile]:
@@ -184,7 +184,7 @@ class _Reader:
         if not content.strip():
             raise UnreadableError("it is empty")
         if content.startswith(LFS_POINTER):
-            raise UnreadableError("it is a pointer of Git LFS; run 'git lfs pull'")
+            raise UnreadableError(IS_LFS_POINTER)
         self._left -= len(content)
         return content
 

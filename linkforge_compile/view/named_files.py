@@ -75,7 +75,7 @@ def _in_collada(content: bytes) -> Iterator[tuple[str, frozenset[str]]]:
     images = _Images()
     parser = etree.XMLParser(target=images, resolve_entities=False, no_network=True, load_dtd=False, huge_tree=True)
     try:
-        etree.fromstring(content, parser)
+        etree.fromstring(content.lstrip(), parser)  # RViz reads a file with blanks before its declaration
     except etree.XMLSyntaxError as error:
         raise UnreadableError(_xml_fault(error, content)) from error
     yield from ((name, TEXTURES) for name in images.names)

@@ -303,7 +303,7 @@ def _numbers(values: Sequence[object]) -> Numbers:
 def _file(files: RobotFiles, digest: str) -> SceneFile:
     file = files.files[digest]
     made: SceneFile = {"name": file.name, "kind": file.kind, "size": len(file.content)}
-    if use := files.uses.get(digest):
+    if use := files.users.get(digest):
         made |= {"links": use.links, "source": _place_at(use.place)}
     if file.uses:
         made["uses"] = file.uses

@@ -77,6 +77,11 @@ def test_images_come_with_collada_and_gltf(tmp_path: Path):
     assert used(files, "b.gltf") == {"a.bin": "a.bin", "my%20image.png": "my image.png"}
 
 
+def test_blanks_before_the_declaration_of_collada_are_no_fault(tmp_path: Path):
+    write(tmp_path, a__dae=b" \n" + content(block(1, 1, 1), "dae"))
+    assert "a.dae" in files_of(tmp_path, "a.dae").digests
+
+
 def test_a_file_of_two_shapes_is_there_once(tmp_path: Path):
     write(tmp_path, a__stl=STL % b"a", b__stl=STL % b"a", c__stl=STL % b"c")
     files = files_of(tmp_path, "a.stl", "b.stl", "c.stl", "package://here/c.stl")
@@ -197,6 +202,7 @@ def _cut(mesh: trimesh.Trimesh, form: str) -> bytes:
     ("name", "written", "reason"),
     [
         ("a.stl", _cut(block(1, 1, 1), "stl"), "the file ends before its data does, after 5 of 12 triangles"),
+        ("a.stl", b"solid".ljust(80) + b"\2\0\0\0" + bytes(98), "after 1 of 2 triangles"),
         ("a.stl", b"solid of nothing", "it has no triangles"),
         ("a.stl", b"<html>404</html>", "its length is not that of a binary STL file, nor does it begin with 'solid'"),
         ("a.dae", _cut(block(1, 1, 1), "dae"), "the file ends before its data does"),

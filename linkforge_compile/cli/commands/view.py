@@ -221,7 +221,7 @@ def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Nam
         html = html_of({**scene, "view": {**scene["view"], "panels": False}}, files, last=WAIT)
         with progress_after(f"drawing with {Path(browser[0]).name}", arguments):
             picture = draw_picture(html, arguments.size, browser)
-        shapes = [(files.uses.get(digest), reason) for digest, reason in picture.not_shown.items()]
+        shapes = [(files.users.get(digest), reason) for digest, reason in picture.not_shown.items()]
         report_not_shown([MissingFile(use.resource, reason, use) for use, reason in shapes if use], arguments)
         return picture.png
     except (NoPageError, PictureError) as error:

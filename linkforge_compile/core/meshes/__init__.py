@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     Triangles: TypeAlias = NDArray[np.float64]  # shape (triangles, 3 corners, 3 coordinates)
 
 __all__ = [
+    "IS_LFS_POINTER",
+    "LFS_POINTER",
     "MAX_BYTES",
     "MAX_NODES",
     "MAX_TRIANGLES",
@@ -49,7 +51,10 @@ MAX_BYTES = 128 * 1024 * 1024
 MAX_NODES = 100_000
 """The nodes of a scene of COLLADA: a file of few lines may nest them without end."""
 
-_LFS_POINTER = b"version https://git-lfs"
+LFS_POINTER = b"version https://git-lfs"
+"""How a file begins that Git LFS left where it fetched nothing."""
+
+IS_LFS_POINTER = "it is a pointer of Git LFS; run 'git lfs pull'"
 
 _NO_MEMORY = "it does not fit into memory"
 
@@ -137,8 +142,8 @@ def triangles_in(content: bytes, name: str, *, times: int = 1) -> Triangles:
         raise MeshError(MeshFault.NO_FORMAT, "its name must end in .stl, .obj or .dae")
     if not content.strip():
         raise MeshError(MeshFault.EMPTY, "the file is empty")
-    if content.startswith(_LFS_POINTER):
-        raise MeshError(MeshFault.UNREADABLE, "it is a pointer of Git LFS; run 'git lfs pull'")
+    if content.startswith(LFS_POINTER):
+        raise MeshError(MeshFault.UNREADABLE, IS_LFS_POINTER)
     try:
         triangles = _read(content, ending, MAX_TRIANGLES * times)
     except ModuleNotFoundError as error:

@@ -20,7 +20,8 @@ def is_binary(start: bytes, length: int) -> bool:
 
 
 def is_text(start: bytes) -> bool:
-    return start.lstrip().lower().startswith(b"solid")
+    """Whether a file begins as one of text; binary ones may begin with `solid` as well, but have a zero soon."""
+    return start.lstrip().lower().startswith(b"solid") and b"\0" not in start
 
 
 def cut_off(start: bytes, length: int) -> str | None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkforge_compile.core.meshes.stl import HEADER, TRIANGLE
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.mesh_paths import is_relative, mesh_paths, reason_not_found
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
 
 _ENDINGS = (".stl", ".obj", ".msh")
-
-_STL_HEADER, _STL_TRIANGLE = 84, 50
-"""The sizes of the header and of a triangle of a binary STL file [bytes]."""
 
 _MAX_TRIANGLES = 200_000
 
@@ -58,7 +56,7 @@ def _fault(robot: Robot, mesh: Mesh, path: Path | None) -> str | None:
     if path is None:
         return reason_not_found(robot, mesh.resource)
     # The size alone shows a binary STL; no file of a stranger's spec is opened.
-    triangles, rest = divmod(path.stat().st_size - _STL_HEADER, _STL_TRIANGLE)
+    triangles, rest = divmod(path.stat().st_size - HEADER, TRIANGLE)
     if ending == ".stl" and not rest and triangles == 1:
         return "MuJoCo refuses a mesh of one triangle"
     if ending == ".stl" and (rest or not 0 < triangles <= _MAX_TRIANGLES):

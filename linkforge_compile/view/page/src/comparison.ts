@@ -42,7 +42,7 @@ export class Compared {
   }
 
   /** Take the colour of the robot before. */
-  follow({ before }: Theme): void {
+  useTheme({ before }: Theme): void {
     this.ghost.color.set(before);
   }
 

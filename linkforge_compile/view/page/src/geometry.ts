@@ -6,7 +6,7 @@ import { poseMatrix } from "./kinematics";
 import { disposeMesh, FINISH, NO_MATERIAL, readMesh } from "./meshes";
 import type { Shape } from "./scene";
 
-export type Role = "visual" | "collision";
+type Role = "visual" | "collision";
 
 const PLAIN = [0.72, 0.74, 0.77, 1] as const;
 const COLLISION = [0.1, 0.62, 0.55] as const;

@@ -26,7 +26,7 @@ export class Grid {
   }
 
   /** Take the colours of a theme. */
-  follow(theme: Theme): void {
+  useTheme(theme: Theme): void {
     this.theme = theme;
     if (this.lines) this.make();
   }

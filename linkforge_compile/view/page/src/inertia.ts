@@ -20,7 +20,7 @@ export function ellipsoid(inertia: Inertia, mass: number): Matrix4 | null {
 }
 
 /** Return eigenvalues and eigenvectors, right-handed, of a symmetric matrix: rotations of Jacobi. */
-export function principal(symmetric: Matrix): { moments: number[]; axes: Vector3[] } {
+function principal(symmetric: Matrix): { moments: number[]; axes: Vector3[] } {
   const matrix = symmetric.map((row) => [...row]) as Matrix;
   const turned: Matrix = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   for (let round = 0; round < ROUNDS; round++) {

@@ -2,7 +2,7 @@
 import type { State, Update } from "./state";
 
 /** What the user changed: a text or null, the default, for each parameter, and the variant if that was changed. */
-export interface SettingsRequest {
+interface SettingsRequest {
   parameters: Record<string, string | null>;
   variant?: string | null;
 }

@@ -68,9 +68,9 @@ async function readObj(files: Files, digest: string, manager: THREE.LoadingManag
   return object;
 }
 
-/** Read COLLADA as RViz does: the unit scales it, `up_axis` turns nothing. */
+/** Read COLLADA as RViz does: the unit scales it, `up_axis` turns nothing, and blanks may be before its declaration. */
 async function readCollada(files: Files, digest: string, manager: THREE.LoadingManager): Promise<THREE.Object3D> {
-  const collada = new ColladaLoader(manager).parse(await files.text(digest), "");
+  const collada = new ColladaLoader(manager).parse((await files.text(digest)).trimStart(), "");
   if (!collada?.scene) throw new Error("it is no COLLADA document with a scene");
   collada.scene.rotation.set(0, 0, 0);
   for (const part of meshesIn(collada.scene)) {

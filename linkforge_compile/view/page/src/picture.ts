@@ -60,7 +60,7 @@ export class Picture {
     const robot = await Robot.make(scene, this.shapes);
     const { comparison } = scene;
     this.compared = comparison ? await Compared.make(scene, comparison, robot, this.shapes) : null;
-    this.compared?.follow(themeOf(scene.view));
+    this.compared?.useTheme(themeOf(scene.view));
     const isFirst = !this.robot || isEmpty(this.robot.scene);
     this.robot?.select(null);
     this.robot?.root.removeFromParent();
@@ -82,8 +82,8 @@ export class Picture {
   private useTheme(): void {
     const theme = themeOf(this.state.scene.view);
     this.viewport.setBackground(theme.background);
-    this.compared?.follow(theme);
-    this.grid.follow(theme);
+    this.compared?.useTheme(theme);
+    this.grid.useTheme(theme);
   }
 
   private update(change: Change): void {

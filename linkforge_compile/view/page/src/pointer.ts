@@ -9,7 +9,7 @@ const PAUSE = 60;
 /** How near to an edge of a missing mesh's box the pointer hits it, as a share of the box. */
 const NEAR_LINE = 0.02;
 
-export interface Pointing {
+interface Pointing {
   click(ray: Raycaster): void;
   /** null: the pointer is not over the picture. */
   hover(ray: Raycaster | null): void;

@@ -1,6 +1,6 @@
 /** The scene that Python makes of a robot. All numbers are SI; frames and angles are those of URDF. */
 
-export type Vector = [number, number, number];
+type Vector = [number, number, number];
 export type Quaternion = [x: number, y: number, z: number, w: number];
 
 export interface Pose {
@@ -50,7 +50,7 @@ export interface Link {
   module: string;
 }
 
-export interface Mimic {
+interface Mimic {
   joint: string;
   multiplier: number;
   offset: number;

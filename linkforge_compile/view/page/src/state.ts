@@ -8,9 +8,11 @@ export type Layer = (typeof LAYERS)[number];
 const FIRST_LAYERS: readonly Layer[] = ["visuals", "grid"];
 /** The first ones of a robot that has no visuals. */
 const WITHOUT_VISUALS: readonly Layer[] = [...FIRST_LAYERS, "collisions", "frames"];
+/** Of more links, frames are slow to draw and hide each other. */
+const MOST_FRAMES = 500;
 
 /** The robots of a comparison. */
-export type Side = "before" | "after";
+type Side = "before" | "after";
 
 export type Change = "scene" | "positions" | "layers" | "sides" | "selection" | "hidden" | "search" | "units" | "live";
 type Listener = (change: Change) => void;
@@ -44,7 +46,7 @@ export interface Parameter {
   description: string;
 }
 
-export interface Settings {
+interface Settings {
   parameters: Parameter[];
   variants: string[];
   variant: string | null;
@@ -157,7 +159,7 @@ export class State {
     const { links, view } = this.#scene;
     if (view.layers) return new Set(LAYERS.filter((layer) => view.layers!.includes(layer)));
     const isInvisible = links.length > 0 && links.every(({ visuals }) => !visuals.length);
-    return new Set(isInvisible && view.panels ? WITHOUT_VISUALS : FIRST_LAYERS);
+    return new Set(isInvisible && view.panels && links.length <= MOST_FRAMES ? WITHOUT_VISUALS : FIRST_LAYERS);
   }
 
   setLayer(layer: Layer, isShown: boolean): void {

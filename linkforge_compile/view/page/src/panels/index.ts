@@ -15,7 +15,7 @@ import { makePoses } from "./states";
 import { makeTree } from "./tree";
 
 /** What panels ask of the picture; all else goes through the state. */
-export interface Actions {
+interface Actions {
   /** Show all of the robot. */
   fit(): void;
 }

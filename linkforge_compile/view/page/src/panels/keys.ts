@@ -5,7 +5,7 @@ import { moveAtRandom } from "./joints";
 import { LAYER_KEYS } from "./layers";
 import { defaultPositions } from "./states";
 
-export interface Key {
+interface Key {
   key: string;
   text: string;
   press(): void;

@@ -10,7 +10,7 @@ export function brief(value: number, digits = 4): string {
 }
 
 /** How a position of a joint is shown: degrees or radians, or metres. */
-export interface PositionUnit {
+interface PositionUnit {
   name: "°" | "rad" | "m";
   /** Shown positions per rad or m. */
   scale: number;

@@ -30,10 +30,11 @@ export function makeProblems(state: State): HTMLElement {
 
 /** Return the files that the page cannot read as problems. */
 function unreadableFiles(state: State): Problem[] {
-  return [...state.unreadable].map(([digest, reason]) => {
-    const { name, links = [], source = null } = state.scene.files[digest]!;
-    const hints = links.length ? [shownUse("", links, source)] : [];
-    return { severity: "warning", code: "", message: `${name} is not shown: ${reason}`, hints };
+  return [...state.unreadable].flatMap(([digest, reason]) => {
+    const file = state.scene.files[digest];
+    if (!file) return []; // of the scene before, until this one is loaded
+    const hints = file.links?.length ? [shownUse("", file.links, file.source ?? null)] : [];
+    return [{ severity: "warning", code: "", message: `${file.name} is not shown: ${reason}`, hints }];
   });
 }
 
