@@ -33,6 +33,7 @@ What each module knows; it imports only those above it:
     place        where robots are compiled
     arrow        pyarrow and distributed, which the extra `sweep` brings
     declared     a spec -> its parameters with types and constant limits
+    cells        values as texts, and the cells of a line of CSV
     axes         `--set` -> axes of texts, and intervals
     points       axes, intervals -> the point of an index
     value_table  a CSV or Parquet file -> an axis
@@ -51,12 +52,15 @@ place and text.
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from linkforge_compile.file_names import stem_of
+from linkforge_compile.sweep.cells import value_text
 from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
 from linkforge_compile.sweep.place import Place
 
@@ -121,7 +125,7 @@ def _request_of(
     return Request(
         str(spec),
         stem_of(spec),
-        tuple(f"{name}={_text(value)}" for name, value in parameters.items()),
+        tuple(f"{name}={value_text(value)}" for name, value in parameters.items()),
         variants[0] if len(variants) == 1 else None,
         {name: str(path) for name, path in packages.items()},
         {"gazebo": "gz", **options},
@@ -146,14 +150,8 @@ def _set_text(name: str, value: object) -> str:
     """Return values of a parameter as `--set` has them."""
     if value is None:
         return name
-    if isinstance(value, Iterable) and not isinstance(value, str):
-        return f"{name}={','.join(map(_text, value))}"
-    return f"{name}={_text(value)}"
-
-
-def _text(value: object) -> str:
-    from linkforge_compile.units import number_text
-
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return str(value) if isinstance(value, str | Path) else number_text(value)  # type: ignore[arg-type]
+    if isinstance(value, str) or not isinstance(value, Iterable):
+        return f"{name}={value_text(value)}"
+    line = io.StringIO()
+    csv.writer(line, lineterminator="").writerow(map(value_text, value))
+    return f"{name}={line.getvalue()}"

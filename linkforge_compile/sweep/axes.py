@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -11,9 +12,10 @@ from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.expand.parameters import PARAMETER_TYPES, Parameter, number_of
 from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.sweep.cells import Cell, cells_of, value_text
 from linkforge_compile.sweep.declared import Declared, untyped, value_of
 from linkforge_compile.sweep.errors import SweepError
-from linkforge_compile.units import Quantity, number_text, parse_quantity
+from linkforge_compile.units import Dimension, number_text, parse_quantity
 
 VARIANT = "--variant"
 """The name of the axis of variants, which no parameter can have."""
@@ -77,17 +79,24 @@ class AxisReader:
         if parameter is None and name not in self._declared.parameters:
             return
         if not equals:
-            self.intervals.append(self.interval_of(name, parameter, is_named=True))
+            self.intervals.append(self._own_interval(name, parameter))
             return
-        if ":" in values and not (parameter and parameter.type.is_text):
+        if _is_range(values, parameter):
             self._read_range(name, parameter, values, where)
-            return
-        texts, column = [], where.column
-        for item in values.split(","):
-            part = Span(file, 1, column, 1, column + len(item))
-            texts.append((item.strip(), part))
-            column += len(item) + 1
-        self._add_values(name, parameter, texts, where)
+        else:
+            self._add_values(name, parameter, self._cells(name, parameter, values, where), where)
+
+    def _cells(self, name: str, parameter: Parameter | None, values: str, where: Span) -> list[Cell]:
+        """Return a list of values: by the rules of CSV, so that a value in quotes may have commas."""
+        if parameter and parameter.type.is_structured and values.lstrip().startswith(("[", "{")):
+            raise SweepError(
+                f"'{name}' is a {parameter.type.name}; write each in double quotes: --set '{name}=\"[…]\",\"[…]\"'"
+            )
+        try:
+            row = next(csv.reader([values], skipinitialspace=True, strict=True))
+        except csv.Error as error:
+            raise SweepError(f"the values of '{name}' cannot be read: {error}") from error
+        return cells_of(row, values, where.file, 1, where.column)
 
     def _declare(self, name: str, key: Span) -> Parameter | None:
         """Return the declaration of a parameter; None for an untyped one, and after a reported error."""
@@ -97,20 +106,15 @@ class AxisReader:
         if name in self._spans:
             self._sink.report(SET_TWICE.at(key, name=name, notes=[Note("set here first", self._spans[name])]))
         self._spans[name] = key
-        parameter = self._declared.parameters[name]
-        if parameter and parameter.type.is_structured:
-            raise SweepError(
-                f"'{name}' is a {parameter.type.name}, which --set cannot list; write its values in a table (--values)"
-            )
-        return parameter
+        return self._declared.parameters[name]
 
-    def _add_values(self, name: str, parameter: Parameter | None, texts: list[tuple[str, Span]], where: Span) -> None:
-        words = [text for text, _ in texts]
+    def _add_values(self, name: str, parameter: Parameter | None, cells: list[Cell], where: Span) -> None:
+        words = [cell.text for cell in cells]
         if "" in words:
             raise SweepError(f"'{name}' has an empty value among '{','.join(words)}'")
         parameter = parameter or untyped(name, words, where)
-        for text, span in texts:
-            value_of(text, span, parameter, self._sink)
+        for cell in cells:
+            value_of(cell.text, cell.span, parameter, self._sink)
         self.parameters[name] = parameter
         self.axes.append(Axis((name,), [(word,) for word in words]))
 
@@ -145,12 +149,12 @@ class AxisReader:
         at = where.column + (where.file.text[where.column - 1 :].find(text))
         if value_of(text.strip(), Span(where.file, 1, at, 1, at + len(text)), parameter, self._sink) is None:
             return None
-        return _End(Fraction(match[1]), match[2])
+        return _End(Fraction(repr(float(match[1]))), match[2])
 
     def _add_linear(
         self, name: str, parameter: Parameter, ends: tuple[_End, _End], count_text: str, where: Span
     ) -> None:
-        count = int(count_text) if count_text.strip().isdecimal() else 0
+        count = int(count_text) if count_text.strip().isdecimal() and len(count_text) < 20 else 0
         if count < 2:
             raise SweepError(f"the COUNT of '{name}' is a whole number from 2, found '{count_text}'")
         if count > self._max_points:
@@ -172,7 +176,7 @@ class AxisReader:
             texts = [f"{number_text(float(one))} {unit}".strip() for one in numbers]
         self.axes.append(Axis((name,), [(text,) for text in texts]))
 
-    def interval_of(self, name: str, parameter: Parameter | None, *, is_named: bool) -> Interval:
+    def _own_interval(self, name: str, parameter: Parameter | None) -> Interval:
         """Return what to draw a parameter from by its own limits; SweepError with the way out if it has none."""
         if parameter and parameter.minimum is not None and parameter.maximum is not None:
             self.parameters[name] = parameter
@@ -185,11 +189,11 @@ class AxisReader:
             if parameter is None or name in self._spans or name in fixed:
                 continue
             if parameter.choices is not None:
-                words = [_choice_text(choice) for choice in parameter.choices]
+                words = [value_text(choice) for choice in parameter.choices]
             elif parameter.type.name == "boolean":
                 words = ["false", "true"]
             elif parameter.minimum is not None and parameter.maximum is not None:
-                self.intervals.append(self.interval_of(name, parameter, is_named=False))
+                self.intervals.append(self._own_interval(name, parameter))
                 continue
             else:
                 continue
@@ -201,12 +205,11 @@ def too_many(count: int, most: int) -> str:
     return f"this sweep has {count:,} points, more than {most:,}; vary less, or allow it with --max-points {count}"
 
 
-def _choice_text(choice: object) -> str:
-    if isinstance(choice, bool):
-        return "true" if choice else "false"
-    if isinstance(choice, Quantity):
-        return str(choice)
-    return number_text(choice) if isinstance(choice, int | float) else str(choice)
+def _is_range(values: str, parameter: Parameter | None) -> bool:
+    """Whether values are START:STOP:COUNT: a value of an argument of a xacro may be `package://…`."""
+    if parameter is None:
+        return ":" in values and _END.fullmatch(values.partition(":")[0]) is not None
+    return ":" in values and not (parameter.type.is_text or parameter.type.is_structured)
 
 
 def _si(end: _End, parameter: Parameter) -> Fraction:
@@ -216,8 +219,6 @@ def _si(end: _End, parameter: Parameter) -> Fraction:
 
 def _unit_of(parameter: Parameter) -> str:
     """Return the SI unit of a parameter, "" for one without a dimension."""
-    from linkforge_compile.units import Dimension
-
     return Dimension(parameter.type.name).si_unit if parameter.type.name in list(Dimension) else ""
 
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.suggest import suggestion_budget
-from linkforge_compile.expand.arguments import Variants
-from linkforge_compile.expand.parameter_values import make_parameter
+from linkforge_compile.expand.arguments import Arguments, Variants
+from linkforge_compile.expand.parameter_values import BoundArguments, make_parameter
 from linkforge_compile.expand.parameters import PARAMETER_TYPES, Parameter, infer_type, resolve_type
 from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import FAULT, Value
@@ -19,7 +19,7 @@ from linkforge_compile.listing import list_arguments, scope_without_arguments
 from linkforge_compile.load import is_xacro
 from linkforge_compile.source import Span
 from linkforge_compile.sweep.errors import SweepError
-from linkforge_compile.syntax import YamlScalar, scalar_value
+from linkforge_compile.syntax import YamlEntry, YamlScalar, scalar_value
 
 
 class Declared(NamedTuple):
@@ -66,13 +66,26 @@ def declared_by(spec: Path, settings: Settings) -> Declared:
 
 
 def value_of(text: str, where: Span, parameter: Parameter | None, sink: Diagnostics) -> Value:
-    """Return a text as a value of a parameter, as on the command line; None after a reported error."""
-    if parameter is None or parameter.type.is_structured:
+    """Return a text as a value of a parameter, as on the command line; None after a reported error.
+
+    Lists, maps and vectors remain texts, which a column of the table can hold.
+    """
+    if parameter is None:
         return text
+    if parameter.type.is_structured:
+        return text if _is_structure(text, where, parameter, sink) else None
     if parameter.type.is_text:
         return parameter.convert(text, where, sink, ())
     value = plain_value(YamlScalar(text, scalar_value(text), where))
     return None if value is FAULT else parameter.convert(value, where, sink, ())
+
+
+def _is_structure(text: str, where: Span, parameter: Parameter, sink: Diagnostics) -> bool:
+    key, node = YamlScalar(parameter.name, parameter.name, where), YamlScalar(text, text, where)
+    arguments = Arguments({parameter.name: YamlEntry(key, node)}, Path(), as_text=True)
+    parsed = BoundArguments(arguments, sink).node(parameter.name, parameter.type)
+    value = FAULT if parsed is None else plain_value(parsed)
+    return value is not FAULT and parameter.convert(value, where, sink, ()) is not None
 
 
 def untyped(name: str, texts: list[str], where: Span) -> Parameter:

@@ -191,7 +191,7 @@ def _kept(where: str, request: Request, points: Points, checked: Callable[[int, 
             kept.append(index)
         checked(index + 1, len(points))
     if not kept:
-        raise SweepError(f"--where {where} holds at none of the {len(points):,} points")
+        raise SweepError(f"--where '{where}' is true at no point, so there is no robot to compile")
     return kept
 
 

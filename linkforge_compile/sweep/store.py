@@ -55,13 +55,15 @@ class Store:
         SweepError if the folder has a sweep that is not to be resumed, or another one than this.
         """
         file, text = self.folder / MANIFEST, json.dumps(manifest, ensure_ascii=False, indent=2) + "\n"
+        if file.exists() and not (resume or self._has_robots):
+            file.unlink()  # of a sweep that ended before its first chunk, such as one whose scheduler was not there
         if file.exists():
             if not resume:
                 raise SweepError(
                     f"'{self.folder}' has a sweep; continue it with --resume, remove the folder, or choose another one"
                 )
             self._require_same(json.loads(file.read_text("utf-8")), json.loads(text))
-        elif self.folder.is_dir() and any(self.folder.iterdir()):
+        elif self.folder.is_dir() and any(one.name != PARTS for one in self.folder.iterdir()):
             raise SweepError(f"'{self.folder}' has files that no sweep wrote; choose an empty or a new folder")
         self.folder.mkdir(parents=True, exist_ok=True)
         if not file.exists():
@@ -70,6 +72,10 @@ class Store:
             return frozenset()
         (self.folder / PARTS).mkdir(exist_ok=True)
         return frozenset(Chunk(*map(int, path.stem.split("-"))) for path in (self.folder / PARTS).glob("*.parquet"))
+
+    @property
+    def _has_robots(self) -> bool:
+        return self.is_finished or (self.folder / ROBOTS).exists() or any((self.folder / PARTS).glob("*.parquet"))
 
     @property
     def is_finished(self) -> bool:
@@ -134,8 +140,9 @@ class Store:
         """Join the parts to the table, a few rows at a time, and remove them."""
         pa, pq = arrow(), parquet()
         parts = sorted((self.folder / PARTS).glob("*.parquet"))
-        schemas = [pq.read_schema(part) for part in parts]
-        schema = pa.unify_schemas([self._schema, *schemas], promote_options="permissive")
+        schema = self._schema
+        for part in parts:  # one at a time: those of a thousand parts take megabytes
+            schema = pa.unify_schemas([schema, pq.read_schema(part)], promote_options="permissive")
         temporary = self.folder / f".{TABLE}.new"
         with pq.ParquetWriter(temporary, schema) as writer:
             waiting: list[Any] = []

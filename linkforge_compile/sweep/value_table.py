@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import SET_TWICE, UNKNOWN_PARAMETER
 from linkforge_compile.expand.parameters import Parameter
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import UnreadableError, text_of
 from linkforge_compile.sweep.axes import VARIANT, Axis
+from linkforge_compile.sweep.cells import Cell, cells_of, value_text
 from linkforge_compile.sweep.declared import Declared, untyped, value_of
 from linkforge_compile.sweep.errors import SweepError
-from linkforge_compile.units import number_text
 
 _MAX_FAULTS = 20
 """How many wrong values of a table are reported; the rest are likely of the same kind."""
-
-
-class _Cell(NamedTuple):
-    text: str
-    span: Span
 
 
 def read_values(path: Path, declared: Declared, sink: Diagnostics) -> tuple[Axis, Mapping[str, Parameter]]:
@@ -56,7 +52,7 @@ def read_values(path: Path, declared: Declared, sink: Diagnostics) -> tuple[Axis
     return Axis(tuple(names), [tuple(cell.text for cell in row) for row in body]), parameters
 
 
-def _check(column: list[_Cell], parameter: Parameter, sink: Diagnostics) -> None:
+def _check(column: list[Cell], parameter: Parameter, sink: Diagnostics) -> None:
     faults = 0
     for cell in column:
         faults += value_of(cell.text, cell.span, parameter, sink) is None
@@ -64,13 +60,13 @@ def _check(column: list[_Cell], parameter: Parameter, sink: Diagnostics) -> None
             return
 
 
-def _check_variants(column: list[_Cell], declared: Declared) -> None:
+def _check_variants(column: list[Cell], declared: Declared) -> None:
     for cell in column:
         if unknown := [one for one in cell.text.split("+") if one not in declared.variants]:
             raise SweepError(f"{cell.span}: there is no variant '{unknown[0]}'")
 
 
-def _name_of(cell: _Cell, declared: Declared, sink: Diagnostics) -> str:
+def _name_of(cell: Cell, declared: Declared, sink: Diagnostics) -> str:
     if cell.text == "variant" and cell.text not in declared.parameters and declared.variants:
         return VARIANT
     if cell.text not in declared.parameters:
@@ -78,31 +74,25 @@ def _name_of(cell: _Cell, declared: Declared, sink: Diagnostics) -> str:
     return cell.text
 
 
-def _csv_rows(path: Path) -> Iterator[list[_Cell]]:
-    """Yield the cells of each line; the place of a cell is exact for lines without quotes, else its line."""
-    import csv
-
+def _csv_rows(path: Path) -> Iterator[list[Cell]]:
+    """Yield the cells of each row; a mark of the byte order, which spreadsheets write, is none of the first cell."""
     try:
-        text = text_of(path.read_bytes())
+        text = text_of(path.read_bytes()).removeprefix("\ufeff")
     except OSError as error:
         raise SweepError(f"--values {path}: {error.strerror}") from error
     except UnreadableError as error:
         raise SweepError(f"--values {path} cannot be read: {error}") from error
-    file, lines = SourceFile(str(path), text, path), text.splitlines()
-    reader = csv.reader(lines)
-    line = 1
-    for row in reader:
-        written, column, cells = lines[line - 1], 1, []
-        is_plain = ",".join(row) == written
-        for item in row:
-            width = len(item) if is_plain else len(written)
-            cells.append(_Cell(item.strip(), Span(file, line, column, line, column + width)))
-            column += width + 1 if is_plain else 0
-        yield cells
-        line = reader.line_num + 1
+    file, lines = SourceFile(str(path), text, path), list(io.StringIO(text, newline=""))
+    reader, line = csv.reader(lines), 1
+    try:
+        for row in reader:
+            yield cells_of(row, lines[line - 1].rstrip("\r\n"), file, line, 1)
+            line = reader.line_num + 1
+    except csv.Error as error:
+        raise SweepError(f"{path}:{reader.line_num}: cannot be read as CSV: {error}") from error
 
 
-def _parquet_rows(path: Path) -> Iterator[list[_Cell]]:
+def _parquet_rows(path: Path) -> Iterator[list[Cell]]:
     """Yield the cells of each row; line 1 is the names of the columns, as in a CSV."""
     from linkforge_compile.sweep.arrow import parquet
 
@@ -111,17 +101,10 @@ def _parquet_rows(path: Path) -> Iterator[list[_Cell]]:
     except (OSError, ValueError) as error:  # pyarrow's errors are ValueErrors
         raise SweepError(f"--values {path}: {error}") from error
     columns = [column.to_pylist() for column in table.columns]
-    shown = [table.column_names, *([_text(value) for value in row] for row in zip(*columns, strict=True))]
+    for name, column in zip(table.column_names, columns, strict=True):
+        if None in column:
+            raise SweepError(f"{path}:{column.index(None) + 2}: '{name}' has no value (null); each row needs one")
+    shown = [table.column_names, *(list(map(value_text, row)) for row in zip(*columns, strict=True))]
     file = SourceFile(str(path), "\n".join(",".join(row) for row in shown), path)
     for line, row in enumerate(shown, 1):
-        column, cells = 1, []
-        for item in row:
-            cells.append(_Cell(item, Span(file, line, column, line, column + len(item))))
-            column += len(item) + 1
-        yield cells
-
-
-def _text(value: object) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return number_text(value) if isinstance(value, int | float) else "" if value is None else str(value)
+        yield cells_of(row, ",".join(row), file, line, 1)

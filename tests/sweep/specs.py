@@ -11,6 +11,8 @@ parameters:
   tool: {type: string, default: hand, enum: [hand, hook]}
   bend: {type: angle, default: 0 deg}
   is_long: {type: boolean, default: false}
+  offset: {type: vector, default: [0, 0, 0]}
+  title: {type: string, default: arm}
 variables:
   half: $(reach / 2)
 variants:

@@ -3,12 +3,13 @@
 import os
 import signal
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from linkforge_compile.sweep import SweepError, run, scheduler
+from linkforge_compile.sweep import SweepError, run, scheduler, session
 from linkforge_compile.sweep.bundle import Bundle, Tree, add_files
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
@@ -42,7 +43,7 @@ def rows(made: list[tuple[Chunk, list[Made]]]) -> list[dict[str, object]]:
 
 def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path):
     """One of two is killed while both work; what it was computing is computed by the other, or by its successor."""
-    plan = plan_of(Request(str(write_arm(tmp_path)), "arm"), Choice(sample=120, seed=4, chunk=5))
+    plan = plan_of(Request(str(write_arm(tmp_path)), "arm"), Choice(sample=60, seed=4, chunk=3))
     workers = set(client.run(os.getpid).values())
     assert len(workers) == 2
     made: list[tuple[Chunk, list[Made]]] = []
@@ -50,8 +51,8 @@ def test_a_killed_worker_loses_nothing(client: Any, tmp_path: Path):
         made.append((chunk, part))
         if number == 3:
             os.kill(min(workers), signal.SIGKILL)
-    assert [chunk for chunk, _ in sorted(made)] == list(chunks_of(120, 5))
-    undisturbed = make_all(plan.request, plan.points_of(Chunk(0, 120)))
+    assert [chunk for chunk, _ in sorted(made)] == list(chunks_of(60, 3))
+    undisturbed = make_all(plan.request, plan.points_of(Chunk(0, 60)))
     assert rows(made) == [one.row for one in undisturbed]
     assert [one.files for _, part in sorted(made) for one in part] == [one.files for one in undisturbed]
     assert min(workers) not in client.run(os.getpid).values()
@@ -131,7 +132,7 @@ def test_files_travel_by_their_digest(tmp_path: Path):
     assert (len(bundle.files), again.digest, list(blobs.values())) == (1, bundle.digest, [b"a: 1\n"])
 
 
-def test_the_command_s_function_runs_on_workers(tmp_path: Path):
+def test_a_function_runs_on_workers(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """A closure travels; what it raises is a diagnostic of one robot."""
     factor = 2.0
 
@@ -142,6 +143,7 @@ def test_the_command_s_function_runs_on_workers(tmp_path: Path):
 
     spec = write_arm(tmp_path)
     here = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score)
+    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
     there = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score, jobs=2)
     assert there.equals(here)
     assert here["double"].to_pylist() == [1.0, None, 2.0, None]

@@ -6,6 +6,7 @@ import pyarrow
 import pyarrow.parquet
 import pytest
 
+from linkforge_compile.sweep import _set_text
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
 from linkforge_compile.sweep.store import Chunk
@@ -58,9 +59,24 @@ def test_integers_and_booleans_are_listed(tmp_path: Path):
     assert numbers(grid, "is_long") == [True, False] * 3
 
 
+def test_a_value_in_quotes_may_have_commas(tmp_path: Path):
+    assert texts(plan(tmp_path, 'title="a,b",c'), "title") == ["a,b", "c"]
+    assert texts(plan(tmp_path, 'offset="[0, 0, 1 m]", "[0, 1 cm, 0]"'), "offset") == ["[0, 0, 1 m]", "[0, 1 cm, 0]"]
+
+
+def test_values_of_python_are_written_as_set_has_them():
+    """Commas, lists and truth values survive."""
+    assert _set_text("title", ["a,b", 'say "c"']) == 'title="a,b","say ""c"""'
+    assert _set_text("offset", [[0, 0, "1 m"]]) == 'offset="[0, 0, ""1 m""]"'
+    assert _set_text("is_long", [True, False]) == "is_long=true,false"
+    assert _set_text("reach", [0.1 + 0.2]) == "reach=0.30000000000000004"
+
+
 @pytest.mark.parametrize(
     ("sets", "message"),
     [
+        (["offset=[0,0,1],[0,0,2]"], "'offset' is a vector; write each in double quotes"),
+        (['title="a,b'], "the values of 'title' cannot be read: unexpected end of data"),
         (["reach=0.4m:1m"], "a range is START:STOP:COUNT, found 'reach=0.4m:1m'; add a COUNT, or --sample N"),
         (["reach=0.4m:1m:1"], "the COUNT of 'reach' is a whole number from 2, found '1'"),
         (["fingers=2:5:3"], "'fingers' takes whole numbers, and this range gives 3.5; .* such as 2:5:4"),
@@ -69,7 +85,7 @@ def test_integers_and_booleans_are_listed(tmp_path: Path):
         (["reach"], "takes NAME=START:STOP:COUNT"),
         (["reach=0.2:1:2000", "bend=0:1:2000"], "this sweep has 4,000,000 points, more than 1,000,000"),
         (["reach=0.2:1:2000000"], "this sweep has 2,000,000 points"),
-        ([], r"nothing is varied; .*\(parameters: reach, fingers, tool, bend, is_long\)"),
+        ([], r"nothing is varied; .*\(parameters: reach, fingers, tool, bend, is_long, offset, title\)"),
     ],
 )
 def test_what_cannot_be_read_is_refused(tmp_path: Path, sets: list[str], message: str):
@@ -80,6 +96,7 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path, sets: list[str], message
 @pytest.mark.parametrize(
     ("text", "place", "message"),
     [
+        ('offset="[0, 0]","[0, 0, 1]"', "1:14", "parameter 'offset' takes three numbers, found a list of 2"),
         ("raech=1m,2m", "1:7", "no parameter named 'raech'; did you mean 'reach'?"),
         ("reach=1m,5m", "1:16", "parameter 'reach' must be at most 2 m, found '5m'"),
         ("reach=0.1m:1m:3", "1:13", "parameter 'reach' must be at least 0.2 m, found '0.1m'"),
@@ -151,6 +168,24 @@ def test_the_rows_of_a_csv_are_points(tmp_path: Path):
     assert [read.points[i].variant for i in (0, 1)] == ["sim", "real"]
 
 
+def test_a_csv_of_a_spreadsheet(tmp_path: Path):
+    """With a mark of the byte order, carriage returns, an empty last line, and quotes around commas and line ends."""
+    table = tmp_path / "points.csv"
+    table.write_bytes(
+        b'\xef\xbb\xbfreach,fingers,title,offset\r\n0.5m,2.0,"a,b","[0, 0, 1]"\r\n1,3,"c\nd","[0, 1, 0]"\r\n\r\n'
+    )
+    read = plan(tmp_path, values=table)
+    assert (numbers(read, "reach"), numbers(read, "fingers")) == ([0.5, 1], [2, 3])
+    assert (texts(read, "title"), texts(read, "offset")) == (["a,b", "c\nd"], ["[0, 0, 1]", "[0, 1, 0]"])
+
+
+def test_a_parquet_with_a_missing_value_is_refused(tmp_path: Path):
+    table = tmp_path / "points.parquet"
+    pyarrow.parquet.write_table(pyarrow.table({"title": ["a", None]}), table)
+    with pytest.raises(SweepError, match=r"points\.parquet:3: 'title' has no value \(null\)"):
+        plan(tmp_path, values=table)
+
+
 def test_a_parquet_has_numbers_in_si(tmp_path: Path):
     table = tmp_path / "points.parquet"
     pyarrow.parquet.write_table(pyarrow.table({"reach": [0.1 + 0.2, 1.0], "is_long": [True, False]}), table)
@@ -216,5 +251,5 @@ def test_a_fault_of_a_condition_is_reported_at_its_place(tmp_path: Path, where: 
 def test_a_condition_is_true_or_false(tmp_path: Path):
     with pytest.raises(SweepError, match="--where takes an expression that is true or false, found a length"):
         plan(tmp_path, "reach=1m,2m", where="$(reach)")
-    with pytest.raises(SweepError, match="holds at none of the 2 points"):
+    with pytest.raises(SweepError, match="is true at no point"):
         plan(tmp_path, "reach=1m,2m", where="$(reach > 9)")
