@@ -62,7 +62,7 @@ MAY_IMPORT = {
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",
     "lsp": (
         "analysis source diagnostics fixing syntax formatter schema expressions units load expand listing core "
-        "export_spec overview editor roots paths resources formats limits lower checks compilation _version"
+        "export_spec overview editor roots paths resources formats limits lower checks compilation file_names _version"
     ),
     "view": (
         "source diagnostics checks formats core shape_files resources compare expand listing analysis pipeline "

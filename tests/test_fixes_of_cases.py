@@ -31,8 +31,13 @@ UNCOVERED = {
     **dict.fromkeys(("LF2201_module_without_use", "LF3001_include_of_no_file"), "the file has names of its own"),
     **dict.fromkeys(("LF2101_misspelt_default", "LF2201_group_without_its_keys"), "the name in it is unknown"),
     "LF6114_package_of_a_plugin": "the package is unknown",
+    "LF2101_entries_outside_their_indentation": "the name of another link is misspelt",
+    "LF2101_things_under_other_keys": "the name of a link is misspelt",
+    "LF2101_keys_that_belong_together": "a joint lacks more",
+    "LF2155_lines_of_sections_lost": "the lines of other sections are lost, too",
     # the fix, which is not safe, is wrong
     **dict.fromkeys(("LF3020_unknown_parameter", "LF4103_state_of_a_module"), "the name is there already"),
+    "LF2101_entry_outside_its_section": "of two sections, one is wrong",
     "LF3221_override_of_what_is_not_there": "the link that the override deletes is used",
     "LF1005_space_after_dash_of_a_map": "the next line was aligned without the space",
 }

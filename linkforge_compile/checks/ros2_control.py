@@ -220,15 +220,18 @@ def _far_beyond(interface: Interface, joint: Joint, lowest: float, highest: floa
         return
     parameter, found = ("max", highest) if abs(highest) >= abs(lowest) else ("min", lowest)
     shown = f"{found:.6g}"
+    new = ""
     if interface.name == "effort":
         remedy = in_si = "correct one of them"
     elif units is _SLIDING:
-        remedy = f"write '$({shown} / 1000)' if millimetres are meant"
+        new = f"$({shown} / 1000)"
+        remedy = f"write '{new}' if millimetres are meant"
         in_si = f"write '{found / 1000:.6g}' if millimetres are meant"
     else:
-        remedy = f"write '$(radians({shown}))' if degrees are meant"
+        new = f"$(radians({shown}))"
+        remedy = f"write '{new}' if degrees are meant"
         in_si = f"write '{math.radians(found):.6g}' if degrees are meant"
-    yield _at(interface, parameter).report(
+    fault = _at(interface, parameter).report(
         RANGE_FAR_BEYOND,
         interface=f"interface '{interface.name}'",
         joint=joint.name,
@@ -238,6 +241,7 @@ def _far_beyond(interface: Interface, joint: Joint, lowest: float, highest: floa
         remedy=remedy,
         in_si=in_si,
     )
+    yield fault.replacing(shown, new) if new else fault
 
 
 _TURNING = {"position": "rad", "velocity": "rad/s", "effort": "N*m"}

@@ -22,7 +22,9 @@ from yaml.events import (
     SequenceStartEvent,
 )
 
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.source import Position, SourceFile, Span
+from linkforge_compile.syntax import YamlEntry, YamlMap, read_data
 from linkforge_compile.syntax.parser import readable_events
 
 _Path: TypeAlias = tuple[str | int, ...]
@@ -192,6 +194,16 @@ def section_names(file: SourceFile, line: int) -> tuple[str, ...]:
     """Return the keys of the sections of a file, but for one in a line."""
     lines = (text for number, text in enumerate(file.lines, start=1) if number != line and _SECTION.match(text))
     return tuple(text.partition(":")[0].strip() for text in lines)
+
+
+def read_sections(file: SourceFile) -> YamlMap:
+    """Read the sections of a text each by itself; return those that can be read, at their places."""
+    entries: dict[str, YamlEntry] = {}
+    for first in (number for number, text in enumerate(file.lines, start=1) if _SECTION.match(text)):
+        text = "\n" * (first - 1) + "\n".join(file.lines[first - 1 : section_lines(file, first)[1]])
+        section = read_data(SourceFile(file.name, text, file.path), Diagnostics(), {})
+        entries |= section.entries if isinstance(section, YamlMap) else {}
+    return YamlMap(entries, file.whole)
 
 
 @dataclass

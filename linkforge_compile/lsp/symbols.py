@@ -14,9 +14,11 @@ from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.lsp.convert import Columns
+from linkforge_compile.lsp.cursor import read_sections
 from linkforge_compile.lsp.occurrences import declarations_in
 from linkforge_compile.lsp.workspace import Document, specs_in
 from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.syntax import YamlMap
 
 MAX_DEPTH = 30
 """How many links deep an outline is nested, as clients read it by recursion; what is deeper follows at the end."""
@@ -42,18 +44,24 @@ _KINDS = {
 def outline(document: Document) -> list[types.DocumentSymbol]:
     """Return the parts of a spec: its links and joints as a tree, with those of modules at their `use`, then the rest.
 
-    Of a spec with errors the parts that could be read are there, in the order of the file if there is no tree.
+    Of a spec with errors the parts that could be read are there, in the order of the file if there is no tree; of a
+    text that never parsed those in the sections that do.
     """
     analysis = document.analysis
     if analysis is None or analysis.spec is None:
-        return []
+        return [*_declared_symbols(document, read_sections(document.file))]
     is_own = analysis.spec.file.path is not None and document.holds(analysis.spec.file.whole)
     tree = _Outline(document, analysis.robot) if is_own and analysis.robot is not None else None
     symbols = list(tree.roots()) if tree else []
-    for kind, entry in declarations_in(analysis.spec.tree):
-        if document.holds(entry.key.span) and not (symbols and kind in {"link", "joint"}):
-            symbols.append(_symbol(document.columns, kind, entry.name, entry.key.span, entry.value.span))
-    return symbols
+    declared = _declared_symbols(document, analysis.spec.tree)
+    return [*symbols, *(one for one in declared if not symbols or one.detail not in {"link", "joint"})]
+
+
+def _declared_symbols(document: Document, tree: YamlMap) -> Iterator[types.DocumentSymbol]:
+    """Yield the parts that a document declares, section by section."""
+    for kind, entry in declarations_in(tree):
+        if document.holds(entry.key.span):
+            yield _symbol(document.columns, kind, entry.name, entry.key.span, entry.value.span)
 
 
 def find_symbols(

@@ -198,10 +198,13 @@ def _lacks_space(node: YamlScalar, schema: Schema) -> bool:
 
 def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
     node, path, schema, _ = mismatch
-    for entries, hint, near in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
+    for entries, hint in group_unknown_keys(node, schema) if isinstance(node, YamlMap) else ():
         first, *others = entries
-        hinted = f"; {hint}" if hint else ""
-        fault = codes.UNKNOWN_KEY.at(first.key.span, name=first.name, owner=schema["title"], hint=hinted, near=near)
+        hinted = f"; {hint.words}" if hint.words else ""
+        facts = {"name": first.name, "owner": schema["title"], "hint": hinted}
+        fault = codes.UNKNOWN_KEY.at(first.key.span, near=hint.near, notes=(), **facts)
+        for fix in hint.fixes:
+            fault = fault.with_fix(fix)
         if new := renamed_key(str(schema["title"]), first.name):
             fault = fault.replacing(first.name, new, is_safe=True)
         if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.schema.json_schema import LinkedSchema
 from linkforge_compile.schema.shapes import FREE, Shape, field, shapes
+from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import xacro_facts
 
@@ -156,7 +158,7 @@ class _Checker:
         span = expression.span(name)
         match name.id:
             case "prefix" if place.is_name:
-                self._sink.report(PREFIX_TWICE.at(span, place=place.words))
+                self._sink.report(PREFIX_TWICE.at(span, place=place.words).with_fix(_without_prefix(span)))
                 return False
             case "link" | "joint" if not place.is_free:
                 self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()"))
@@ -164,6 +166,14 @@ class _Checker:
             case "path" if not (place.is_computed or place.path[-1:] == ("use",) or place.is_output):
                 self._sink.report(PATH_OF_THIS_MACHINE.at(span))
         return True
+
+
+def _without_prefix(prefix: Span) -> Fix | None:
+    """Return the fix that leaves out an expression that is the prefix alone, before other text."""
+    whole = prefix._replace(column=prefix.column - len("$("), end_column=prefix.end_column + len(")"))
+    following = prefix.file.line(prefix.line)[whole.end_column - 1 :][:1]
+    is_alone = whole.text == "$(prefix)" and re.match(r"[\w$]", following)
+    return Fix("leave out '$(prefix)'", (Edit(whole, ""),)) if is_alone else None
 
 
 def _is_in_curly_quotes(scalar: YamlScalar) -> bool:

@@ -24,7 +24,7 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
         return tree
     # Imported here because importing jsonschema costs 90 ms.
     from linkforge_compile.schema.explain import report_mismatches
-    from linkforge_compile.schema.misplaced_keys import restore_sections
+    from linkforge_compile.schema.section_lines import restore_sections
 
     return report_mismatches(restore_sections(tree, sink), sink, is_included=is_included)
 

@@ -110,6 +110,10 @@ def test_required_keys_come_first_and_common_ones_last(editor: Editor, tmp_path:
     assert labels_at(editor, tmp_path / "arm.robot.yaml", typed)[:3] == ["parent", "child", "limits"]
 
 
+def test_the_name_of_a_robot_is_that_of_its_file(editor: Editor, tmp_path: Path):
+    assert labels_at(editor, tmp_path / "bot.robot.yaml", "linkforge: 1\nname: ¦\n") == ["bot"]
+
+
 def test_names_in_a_module_have_no_prefix_and_those_in_its_user_do(editor: Editor, tmp_path: Path):
     arm, cell = tmp_path / "arm.robot.yaml", tmp_path / "cell.robot.yaml"
     arm.write_text("linkforge: 1\nname: arm\nlinks: {base: {}}\n")

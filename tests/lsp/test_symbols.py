@@ -172,6 +172,12 @@ class _CountingCodec(PositionCodec):
         return super().client_num_units(chars)
 
 
+def test_a_text_that_never_parsed_has_the_parts_of_the_sections_that_do(editor: Editor, tmp_path: Path):
+    text = "linkforge: 1\nname: arm\nlinks:\n  base: {}\nmaterials: {red: [\njoints:\n  elbow: {type: fixed}\n"
+    (tmp_path / "arm.robot.yaml").write_text(text)
+    assert outline(editor, tmp_path / "arm.robot.yaml") == ["base (link) 4", "elbow (joint) 7"]
+
+
 def test_every_example_has_an_outline_with_all_its_links(editor: Editor):
     for path in sorted(EXAMPLES.rglob("*.robot.yaml")):
         assert outline(editor, path), path

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkforge_compile.file_names import stem_of
 from linkforge_compile.lsp.completion.arguments import offer_macros, parameter_at, values_of
 from linkforge_compile.lsp.completion.context import Context
 from linkforge_compile.lsp.completion.files import endings_at, names_file, offer_files
 from linkforge_compile.lsp.completion.items import COMMON, KNOWN, LIKELY, REQUIRED, Kind, Offer, unique
-from linkforge_compile.lsp.completion.names import kinds_of_values, offer_names
+from linkforge_compile.lsp.completion.names import kinds_of_values, offer_names, written
 from linkforge_compile.lsp.completion.snippets import in_flow
 from linkforge_compile.lsp.completion.units import offer_units
 from linkforge_compile.schema.descriptions import Described
@@ -27,7 +28,10 @@ def offer_values(context: Context) -> list[Offer]:
     for branch in context.branches:
         offers += _words(branch)
         offers += _snippets(branch)
-        offers += () if is_named else _examples(branch)
+        offers += () if is_named or context.cursor.path == ("name",) else _examples(branch)
+    if context.cursor.path == ("name",):
+        stem = written(stem_of(context.document.path), context)
+        offers.append(Offer(stem, stem, Kind.Value, LIKELY, "the name of the file"))
     listed = context.items_around
     return unique(offer for offer in offers if offer.label not in listed)
 

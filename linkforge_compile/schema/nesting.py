@@ -1,0 +1,120 @@
+"""Fixes that write entries of a map under another key of it, or without the map around them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.schema.shapes import nested
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar, is_null
+
+_STEP = "  "
+_MARKS_OF_FLOW = frozenset(",[]{}\n")
+
+
+def under_key(key: str, entries: Sequence[YamlEntry], around: YamlMap) -> Fix | None:
+    """Return the fix that writes neighbours in a map under a key of it, which may be the section just before them.
+
+    None if that is not an edit of their lines alone.
+    """
+    written, first = list(around), entries[0]
+    at = next(index for index, entry in enumerate(written) if entry is first)
+    place = _place(entries)
+    if written[at : at + len(entries)] != [*entries] or place is None:
+        return None
+    section, title = around.get(key), f"write '{key}: {{{first.name}: …}}'"
+    if _is_flow(around):
+        if section is not None:
+            return None
+        begin, end = (Span(place.file, *at, *at) for at in (place.start, place.end))
+        return Fix(title, (Edit(begin, f"{key}: {{"), Edit(end, "}")))
+    if section is None:
+        header = f"{' ' * (place.column - 1)}{key}:{_newline(place.file)}"
+        return _indented(title, place, header, len(_STEP))
+    before = written[at - 1] if at else None
+    inner = next(iter(section), None) if isinstance(section, YamlMap) and not _is_flow(section) else None
+    if before is None or before.value is not section or inner is None:
+        return None
+    return _indented(title, place, "", inner.key.span.column - place.column)
+
+
+def as_path(steps: Sequence[str], entry: YamlEntry) -> Fix | None:
+    """Return the fix that writes the value of an entry under a path of keys, on its line; None for longer values."""
+    place, value = _place([entry]), entry.value
+    text = value.span.text
+    is_plain = isinstance(value, YamlScalar) and not _MARKS_OF_FLOW.isdisjoint(text or "")
+    if place is None or place.text is None or not text or is_null(value) or (is_plain and text[0] not in "'\""):
+        return None
+    new = nested(steps, text)
+    return Fix(f"write '{nested(steps, '…')}'", (Edit(place, new),))
+
+
+def without_map(entry: YamlEntry, around: YamlMap) -> Fix | None:
+    """Return the fix that writes the entries of a map without the map; None if they are not on lines of their own."""
+    place, inner = _place([entry]), entry.value
+    if place is None or not isinstance(inner, YamlMap) or not inner.entries:
+        return None
+    title, first = f"leave out '{entry.name}'", next(iter(inner)).key.span
+    if _is_flow(inner):
+        text, end = inner.span.file.counted, inner.span.file.index_of(*inner.span.end)
+        if not _is_flow(around) or text[end - 1] != "}":
+            return None
+        begin = Span(place.file, *place.start, inner.span.line, inner.span.column + 1)
+        return Fix(title, (Edit(begin, ""), Edit(place.file.between(end - 1, end), "")))
+    if first.line != place.line + 1:
+        return None
+    whole = Span(place.file, first.line, first.column, place.end_line, place.end_column)
+    edits = _indented(title, whole, "", place.column - first.column).edits
+    return Fix(title, (Edit(Span(place.file, place.line, 1, first.line, 1), ""), *edits))
+
+
+def line_above(key: str, entry: YamlEntry, around: YamlEntry) -> Fix | None:
+    """Return the fix that writes the line of a section above an entry that is in another section."""
+    place, section = _place([entry]), around.key.span
+    # The line of the section around may be lost as well; it then has the place of its first entry.
+    if place is None or not _begins_line(section) or not _begins_line(place) or place.column <= section.column:
+        return None
+    start = Span(place.file, place.line, 1, place.line, 1)
+    return Fix(f"write '{key}:' above", (Edit(start, f"{' ' * (section.column - 1)}{key}:{_newline(place.file)}"),))
+
+
+def _place(entries: Sequence[YamlEntry]) -> Span | None:
+    """Return the place of entries; None if they are not written there one after the other."""
+    file, at = entries[0].key.span.file, entries[0].key.span.start
+    for entry in entries:
+        key, value = entry.key.span, entry.value.span
+        if file.is_xml or key.file is not file or value.file is not file or key.start < at or value.start < key.end:
+            return None
+        at = max(key.end, value.end)
+    # A block ends at the begin of the line below it.
+    if at.column == 1:
+        at = at._replace(line=at.line - 1, column=len(file.line(at.line - 1)) + 1)
+    return Span(file, *entries[0].key.span.start, *at)
+
+
+def _is_flow(node: YamlMap) -> bool:
+    text, at = node.span.file.counted, node.span.file.index_of(*node.span.start)
+    return text[at : at + 1] == "{"
+
+
+def _begins_line(place: Span) -> bool:
+    return not place.file.line(place.line)[: place.column - 1].strip(" ")
+
+
+def _indented(title: str, place: Span, header: str, columns: int) -> Fix:
+    """Return the fix that moves the lines of a place to the right, or to the left, below a header."""
+    edits = []
+    for line in range(place.line, place.end_line + 1):
+        text = place.file.line(line)
+        above = header if line == place.line else ""
+        if text.strip() and columns >= 0:
+            edits.append(Edit(Span(place.file, line, 1, line, 1), above + " " * columns))
+        elif text.strip():
+            blank = min(-columns, len(text) - len(text.lstrip(" ")))
+            edits.append(Edit(Span(place.file, line, 1, line, blank + 1), above))
+    return Fix(title, tuple(edits))
+
+
+def _newline(file: SourceFile) -> str:
+    return "\r\n" if "\r\n" in file.text else "\n"
