@@ -91,8 +91,9 @@ def _head_of(spec: Path, text: str) -> Head:
     head = read_head(text)
     if head is None:
         raise UsageError(
-            f"'{spec}' does not begin with the command that imported it and its digests; import it anew: "
-            f"linkforge import ROBOT.urdf -o {spec} --force"
+            f"'{spec}' does not begin with the command that imported it and its digests, so it is no imported spec; "
+            "give the one that 'linkforge import' wrote, or import the robot into a new file; for migrated specs "
+            "there is 'linkforge migrate --verify'"
         )
     return head
 

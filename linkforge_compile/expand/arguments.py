@@ -22,7 +22,7 @@ from linkforge_compile.load.loader import Loader, SpecFile
 from linkforge_compile.load.locations import is_xacro
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, scalar_value
-from linkforge_compile.units import Quantity, number_text, parse_quantity
+from linkforge_compile.units import Dimension, Quantity, number_text, parse_quantity
 
 if TYPE_CHECKING:
     from linkforge_compile.expand.evaluate import Evaluator
@@ -182,7 +182,8 @@ def xacro_arguments(
         if isinstance(text, str):
             texts[name] = XacroArgument(text, entry.key.span)
         elif expression:
-            texts[name] = XacroArgument(expression, entry.key.span, is_expression=True)
+            origin = _origin_element(entry.value, arguments)
+            texts[name] = XacroArgument(expression, entry.key.span, is_expression=True, origin=origin)
         elif text is None:
             sink.report(XACRO_ARGUMENT.at(entry.value.span, name=name))
     return None if arguments.is_partial or len(texts) < len(arguments.entries) else texts
@@ -210,6 +211,30 @@ def _xacro_expression(node: YamlNode, arguments: Arguments) -> str | None:
     value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
     literal = _python_literal(value) if isinstance(value, Mapping | tuple) else None
     return literal and f"${{{f'xacro.dotify({literal})' if isinstance(value, Mapping) else literal}}}"
+
+
+_POSE = {"xyz": Dimension.LENGTH, "rpy": Dimension.ANGLE}
+
+
+def _origin_element(node: YamlNode, arguments: Arguments) -> str | None:
+    """Return a map of `xyz` [m] and `rpy` [rad] as the element `origin`; None for anything else."""
+    from linkforge_compile.expand.values import plain_value  # with the expressions
+
+    value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
+    if not isinstance(value, Mapping) or not value or not value.keys() <= _POSE.keys():
+        return None
+    texts = {key: _three_numbers(value[key], dimension) for key, dimension in _POSE.items() if key in value}
+    attributes = " ".join(f'{key}="{text}"' for key, text in texts.items())
+    return None if None in texts.values() else f"<origin {attributes}/>"
+
+
+def _three_numbers(value: Value, dimension: Dimension) -> str | None:
+    if not isinstance(value, tuple) or len(value) != 3 or any(isinstance(one, bool | str) for one in value):
+        return None
+    if any(isinstance(one, Quantity) and one.dimension is not dimension for one in value):
+        return None
+    texts = [_text_of(one) for one in value]
+    return None if None in texts else " ".join(filter(None, texts))
 
 
 def _python_literal(value: Value | Fault) -> str | None:

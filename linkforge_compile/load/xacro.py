@@ -176,11 +176,12 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 
 
 class XacroArgument(NamedTuple):
-    """The text of an argument, and where its name is written; of a macro it may be an expression, for a map."""
+    """An argument and the place of its name; for a macro it may be the expression of a map, also as an `<origin>`."""
 
     text: str
     where: Span
     is_expression: bool = False
+    origin: str | None = None
 
 
 @dataclass(frozen=True)

@@ -50,6 +50,8 @@ STAND_IN = "world"
 _IDENTITY = '<origin xyz="0 0 0" rpy="0 0 0" {}=""/>'
 """A block in place of which the entry has the origin; it has the mark of a place that is in no file."""
 
+_POSE = "a place may be a map instead, '{xyz: [0, 0, 1 m], rpy: [0, 0, 90 deg]}'"
+
 
 class MacroEntry(NamedTuple):
     """An entry of `modules` with `macro`; `prefix` is in force, and `has_prefix` if it is written."""
@@ -220,11 +222,14 @@ class _Arguments:
         if given is None:
             self._require(parameter)
             return None
+        if given.origin and parameter.block == "*":
+            return given.origin
         elements = _elements_in(given.text)
         if elements is None or (parameter.block == "*" and elements != 1):
             what = "one element" if parameter.block == "*" else "elements"
             found = "a map" if given.is_expression else given.text
-            self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=found))
+            notes = [Note(_POSE)] if given.is_expression and parameter.block == "*" else []
+            self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=found, notes=notes))
             return None
         return given.text if parameter.block == "*" else f"<block>{given.text}</block>"
 

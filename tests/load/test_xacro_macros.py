@@ -436,6 +436,40 @@ def test_a_block_of_elements_may_be_empty(nothing: str, folder: Path):
     assert codes(compile_file(spec)) == [("LF8036", 3)]
 
 
+def of_pose(folder: Path, pose: str) -> Compilation:
+    (folder / "pose.xacro").write_text(
+        f"""{ROOT}><xacro:macro name="post" params="prefix *joint_pose"><link name="${{prefix}}a"/>
+        <link name="${{prefix}}b"/><joint name="${{prefix}}j" type="fixed"><xacro:insert_block name="joint_pose"/>
+        <parent link="${{prefix}}a"/><child link="${{prefix}}b"/></joint></xacro:macro></robot>""",
+        "utf-8",
+    )
+    spec = folder / "cell.robot.yaml"
+    entry = f"use: pose.xacro, macro: post, with: {{joint_pose: {pose}}}"
+    spec.write_text(f"linkforge: 1\nname: cell\nvariables: {{h: 2 m}}\nmodules: {{a: {{{entry}}}}}\n", "utf-8")
+    return compile_file(spec)
+
+
+@pytest.mark.parametrize(
+    ("pose", "origin"),
+    [
+        ("{xyz: [1, 20 cm, $(h)], rpy: [0, 0, 90 deg]}", '<origin xyz="1 0.2 2" rpy="0 0 1.5707963267948966"/>'),
+        ("{xyz: [0, 0, 1]}", '<origin xyz="0 0 1" rpy="0 0 0"/>'),
+        ("{rpy: [0, 0, 1]}", '<origin xyz="0 0 0" rpy="0 0 1"/>'),
+    ],
+)
+def test_a_block_for_a_place_may_be_a_map(pose: str, origin: str, folder: Path):
+    assert origin in of_pose(folder, pose).result().export_urdf()
+
+
+@pytest.mark.parametrize(
+    "pose", ["{xyz: [0, 0, 1 deg]}", "{xyz: [0, 0]}", "{xyz: [0, 0, true]}", "{xzy: [0, 0, 1]}", "{xyz: '0 0 1'}"]
+)
+def test_a_block_that_is_a_wrong_map_tells_what_a_place_is(pose: str, folder: Path):
+    (fault,) = of_pose(folder, pose).diagnostics
+    assert fault.code.id == "LF8036"
+    assert "{xyz: [0, 0, 1 m], rpy: [0, 0, 90 deg]}" in fault.notes[0].message
+
+
 def test_a_block_that_a_macro_passes_on_is_no_expression_either(folder: Path):
     (folder / "passed.xacro").write_text(
         f"""{ROOT}><xacro:macro name="inner" params="**more"><xacro:insert_block name="more"/></xacro:macro>
