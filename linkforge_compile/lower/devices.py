@@ -265,7 +265,8 @@ def _tags_of_block(block: YamlMap) -> Iterator[tuple[str, YamlEntry]]:
             yield tag, entry
     properties = block.get("properties")
     for entry in properties if isinstance(properties, YamlMap) else ():
-        if not is_absent(entry.value):
+        is_empty = isinstance(entry.value, YamlList) and not len(entry.value)  # no item of it is there
+        if not (is_empty or is_absent(entry.value)):
             yield entry.name, entry
 
 

@@ -80,8 +80,10 @@ def _main_tree(links: set[str], joints: list[Element], roots: set[str]) -> set[s
     above = {_end(one, "child"): _end(one, "parent") for one in joints}
 
     def root_of(link: str) -> str:
-        for _ in links:
-            link = above.get(link, link)
+        seen: set[str] = set()
+        while link in above and link not in seen:
+            seen.add(link)
+            link = above[link]
         return link
 
     trees = Counter(map(root_of, links))

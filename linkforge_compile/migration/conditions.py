@@ -77,7 +77,7 @@ def resolved(parts: Parts) -> Parts:
 def decided(node: ast.expr, outcomes: Outcomes) -> ast.expr:
     """Return an expression with the alternative that the outcomes choose."""
     match node:
-        case ast.IfExp(test=test, body=body, orelse=orelse) if atom_of(test)[0] in outcomes:
+        case ast.IfExp(test=test, body=body, orelse=orelse) if is_decided(test, outcomes):
             return decided(body if holds(test, outcomes) else orelse, outcomes)
         case Reference(symbol=symbol) if symbol.role == "variable" and symbol.value is not None:
             return decided(as_expression(symbol.value), outcomes)
@@ -85,9 +85,38 @@ def decided(node: ast.expr, outcomes: Outcomes) -> ast.expr:
 
 
 def holds(test: ast.expr, outcomes: Outcomes) -> bool:
-    """Whether a test is true in a combination of outcomes."""
-    key, _, positive = atom_of(test)
+    """Whether a test is true in a combination of outcomes, which has it or the conditions that it joins."""
+    key, atom, positive = atom_of(test)
+    if key not in outcomes and isinstance(atom, ast.BoolOp):
+        is_true = all if isinstance(atom.op, ast.And) else any
+        return is_true([holds(one, outcomes) for one in atom.values]) is positive
     return outcomes[key] is positive
+
+
+def is_decided(test: ast.expr, outcomes: Outcomes) -> bool:
+    """Whether a combination of outcomes tells whether a test is true."""
+    key, atom, _ = atom_of(test)
+    return key in outcomes or (isinstance(atom, ast.BoolOp) and all(is_decided(one, outcomes) for one in atom.values))
+
+
+def joined_in(atoms: Mapping[str, ast.expr]) -> dict[str, ast.expr]:
+    """Return the conditions that `and` and `or` join in these, if some have one in common; else these."""
+    found: dict[str, ast.expr] = {}
+    shared = False
+    for test in atoms.values():
+        own = dict(_leaves(test))
+        shared = shared or not own.keys().isdisjoint(found)
+        found |= own
+    return found if shared else dict(atoms)
+
+
+def _leaves(test: ast.expr) -> Iterator[tuple[str, ast.expr]]:
+    key, atom, _ = atom_of(test)
+    if isinstance(atom, ast.BoolOp):
+        for one in atom.values:
+            yield from _leaves(one)
+    else:
+        yield key, atom
 
 
 def combinations(atoms: Mapping[str, ast.expr]) -> Sequence[Outcomes]:

@@ -104,7 +104,7 @@ class FileMaker:
         made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
         text = write(made, self._comments, self._endings)
         raw = tuple(_raw_in(made))
-        return Spec(f"{head}{text}", self._names, dict(self._values.used), raw)
+        return Spec(f"{head}{text}", self._names, dict(self._values.used), raw, tuple(self._writer.left_out))
 
     def _read(self, text: str, outside: frozenset[str]) -> Imported:
         sink = Diagnostics()

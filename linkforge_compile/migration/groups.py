@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from linkforge_compile.migration.conditions import Outcomes, atom_of, atoms_in, combinations, holds
+from linkforge_compile.migration.conditions import Outcomes, atom_of, atoms_in, combinations, holds, joined_in
 from linkforge_compile.migration.symbols import NotConstantError, Parts, as_expression, symbols_in
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
 from linkforge_compile.migration.written import Writer
@@ -58,6 +58,18 @@ class Group:
         for key, atom in atoms_in([placed.element]):
             self.atoms.setdefault(key, atom)
 
+    def settle(self) -> None:
+        """Find the outcomes of its conditions, of which some may join others: `a and b` beside `a and not b`."""
+        if self.key == REST:
+            self.outcomes = [{}]
+            return
+        joined = joined_in(self.atoms)
+        try:
+            self.outcomes = combinations(joined)
+            self.atoms = joined
+        except NotConstantError:  # too many
+            self.outcomes = combinations(self.atoms)
+
     def outcome(self, number: int) -> Outcomes:
         return self.outcomes[min(number, len(self.outcomes) - 1)]
 
@@ -100,7 +112,7 @@ class Groups:
             group.add(one)
             self._group_of[one.element] = group
         for group in self.by_key.values():
-            group.outcomes = [{}] if group.key == REST else combinations(group.atoms)
+            group.settle()
 
     @property
     def count(self) -> int:

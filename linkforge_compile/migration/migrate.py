@@ -141,11 +141,8 @@ def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head
     inline, pinned = settled.inline, settled.pinned
     first = Calls(Plan())
     Expander(sources, given, pinned, first).expand()
-    fixed: dict[XmlElement, frozenset[str]] = {}
-    outer: dict[XmlElement, frozenset[XmlElement]] = {}
+    plan = _plan(first.called, inline)
     while True:
-        plan = _plan(first.called, inline, outer)
-        plan.fixed = fixed
         calls = Calls(plan)
         expander = Expander(sources, given, pinned, calls)
         try:
@@ -153,20 +150,22 @@ def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head
             return _written(robot, expander, calls, settled, head)
         except NoModuleError as error:
             body = error.body
-            known = fixed.get(body, frozenset())
-            if same := _constant(error.fixed - known, body, first.called):
-                fixed[body] = known | same
+            called = [one for one in first.called if one.macro.body is body]
+            known = plan.fixed.get(body, frozenset())
+            if same := _constant(error.fixed - known, called):
+                plan.fixed[body] = known | same
             elif not error.outer <= plan.outer[body]:
-                outer[body] = plan.outer[body] | error.outer
-            elif same := _constant(_parameters(body, first.called) - known, body, first.called):
-                fixed[body] = known | same
+                plan.outer[body] |= error.outer
+                _settle(plan, body, called, inline)
+            elif same := _constant(_parameters(called) - known, called):
+                plan.fixed[body] = known | same
             else:
                 inline[body] = error.reason
+                del plan.modules[body]
 
 
-def _constant(names: Iterable[str], body: XmlElement, called: list[Called]) -> frozenset[str]:
+def _constant(names: Iterable[str], calls: list[Called]) -> frozenset[str]:
     """Return the parameters of a macro that have one value in all calls, which depends on no name but one of data."""
-    calls = [one for one in called if one.macro.body is body]
     values = {name: [one.arguments.get(name) for one in calls] for name in names}
     return frozenset(
         name
@@ -179,8 +178,8 @@ def _is_constant(parts: Parts) -> bool:
     return all(symbol.constant is not UNSET and not symbols_of(symbol.value or ()) for symbol in symbols_of(parts))
 
 
-def _parameters(body: XmlElement, called: list[Called]) -> frozenset[str]:
-    return frozenset(name for one in called if one.macro.body is body for name in one.arguments)
+def _parameters(calls: list[Called]) -> frozenset[str]:
+    return frozenset(name for one in calls for name in one.arguments)
 
 
 def _body_of(module: FileDraft) -> XmlElement:
@@ -188,9 +187,7 @@ def _body_of(module: FileDraft) -> XmlElement:
     return module.root
 
 
-def _plan(
-    called: list[Called], inline: dict[XmlElement, str], outer: Mapping[XmlElement, frozenset[XmlElement]]
-) -> Plan:
+def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
     """Return which macros become modules: those of which each call is one tree of links."""
     by_body: dict[XmlElement, list[Called]] = {}
     for one in called:
@@ -199,23 +196,27 @@ def _plan(
     for body, calls in by_body.items():
         if body in inline:
             continue
-        try:
-            if any(one.context.is_inside for one in calls):
-                raise CannotTranslateError("it makes a part of an element")
-            moved = outer.get(body, frozenset()).union(*(outer_parts(one.content) for one in calls))
-            moved |= repeated_parts([one.content for one in calls])
-            joints = [find_attachment(split(one.content, moved)[0]) for one in calls]
-            if None in joints:  # for some calls no joint is left that could be the mount
-                moved |= {joint.origin for joint in joints if joint and joint.origin}
-            plan.outer[body] = moved
-        except CannotTranslateError as error:
-            inline[body] = error.reason
-            continue
-        except NotConstantError as error:
-            inline[body] = f"its joints depend on {error}"
-            continue
+        plan.outer[body] = frozenset().union(*(outer_parts(one.content) for one in calls))
+        plan.outer[body] |= repeated_parts([one.content for one in calls])
         plan.modules[body] = _kinds(calls)
+        _settle(plan, body, calls, inline)
     return plan
+
+
+def _settle(plan: Plan, body: XmlElement, calls: list[Called], inline: dict[XmlElement, str]) -> None:
+    """Find the mount of a module in its calls, or write its macro in place."""
+    try:
+        if any(one.context.is_inside for one in calls):
+            raise CannotTranslateError("it makes a part of an element")
+        joints = [find_attachment(split(one.content, plan.outer[body])[0]) for one in calls]
+        if None in joints:  # for some calls no joint is left that could be the mount
+            plan.outer[body] |= {joint.origin for joint in joints if joint and joint.origin}
+        return
+    except CannotTranslateError as error:
+        inline[body] = error.reason
+    except NotConstantError as error:
+        inline[body] = f"its joints depend on {error}"
+    del plan.modules[body]
 
 
 def _kinds(calls: list[Called]) -> dict[str, str]:

@@ -12,6 +12,7 @@ from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.importing import as_read_back, import_urdf
 from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
+from linkforge_compile.migration.without_effect import leave_out
 from linkforge_compile.pipeline import compile_path, compile_text
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ class Prover:
             return Comparison(arguments, fault=_first_error(compilation.diagnostics))
         back, _ = as_read_back(compilation.robot)
         robot = back or compilation.robot
+        leave_out(robot)
         found = compare(expected, robot, tolerance=TOLERANCE, semantic=False)
         return Comparison(arguments, tuple(f"{'/'.join(one.path)}: {one.text}" for one in found))
 
@@ -93,7 +95,10 @@ class Prover:
             packages={**self._packages},
             allow_outside=True,
         )
-        return compilation.robot or _first_error(compilation.diagnostics)
+        if compilation.robot is None:
+            return _first_error(compilation.diagnostics)
+        leave_out(compilation.robot)
+        return compilation.robot
 
 
 def _first_error(diagnostics: Iterable[Diagnostic]) -> str:

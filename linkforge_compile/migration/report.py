@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
+    ELEMENT_LEFT_OUT,
     MACRO_IN_PLACE,
     MACRO_KEPT,
     MIGRATION_DIFFERS,
@@ -126,6 +127,9 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
             yield MACRO_IN_PLACE.at(body.span, name=called[body].name, reason=reason)
     for body, reason in migration.calls.kept.items():
         yield MACRO_KEPT.at(body.span, name=called[body].name, reason=reason)
+    left_out = (one.origin for spec in migration.specs.values() for one in spec.left_out if one.origin)
+    for element in dict.fromkeys(left_out):
+        yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag)
     for name in sorted(migration.pinned):
         symbol = migration.expander.arguments[name]
         yield ARGUMENT_PINNED.at(symbol.where, name=name, value=str(symbol.constant))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from functools import partial
 from glob import glob
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import yaml
 
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag, value_with_tag
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.load import ImportSite, Loader
@@ -100,38 +102,38 @@ class Sources:
                 raise CannotTranslateError(f"'{path}' may not be read; see --allow-outside")
             try:
                 self._data[key] = yaml.load(key.read_text("utf-8"), _DataLoader)
-            except (OSError, yaml.YAMLError) as error:
-                raise CannotTranslateError(f"'{path}' cannot be read: {error}") from None
+            except (OSError, UnicodeDecodeError, RecursionError, yaml.YAMLError) as error:
+                raise CannotTranslateError(f"'{path}' cannot be read: {_reason(error)}") from None
         return self._data[key]
 
     def is_readable(self, path: Path) -> bool:
         """Whether a spec can read a file of data: it refuses keys that are written twice, for example."""
         sink = Diagnostics()
-        read_data(SourceFile(str(path), path.read_text("utf-8")), sink, _ANGLES)
+        tags: Tags = {tag: partial(number_with_tag, sink, tag) for tag in UNIT_TAGS}
+        read_data(SourceFile(str(path), path.read_text("utf-8")), sink, tags)
         return not sink.has_errors
 
 
-_ANGLES: Tags = {"!degrees": lambda node: node, "!radians": lambda node: node}
-"""The tags of numbers that a spec's data may have as well."""
+def _reason(error: Exception) -> str:
+    """Return what is wrong with a file, on one line."""
+    if isinstance(error, OSError):
+        return error.strerror or type(error).__name__
+    if isinstance(error, yaml.MarkedYAMLError) and error.problem_mark:
+        return f"{error.problem} (line {error.problem_mark.line + 1}, column {error.problem_mark.column + 1})"
+    return " ".join(str(error).split())
 
 
 class _DataLoader(yaml.SafeLoader):
     """PyYAML's safe loader with the units of xacro."""
 
 
-_UNITS = {
-    "!radians": 1.0,
-    "!degrees": 0.017453292519943295,
-    "!meters": 1.0,
-    "!millimeters": 0.001,
-    "!foot": 0.3048,
-    "!inches": 0.0254,
-}
-
-
 def _read_unit(loader: _DataLoader, node: yaml.ScalarNode) -> float:
-    return float(loader.construct_scalar(node)) * _UNITS[node.tag]
+    text = str(loader.construct_scalar(node))
+    value = value_with_tag(node.tag, text, SourceFile(node.tag, text).whole)
+    if value is None:
+        raise yaml.MarkedYAMLError(problem=f"'{text}' after {node.tag} is no number", problem_mark=node.start_mark)
+    return value
 
 
-for _tag in _UNITS:
+for _tag in UNIT_TAGS:
     _DataLoader.add_constructor(_tag, _read_unit)

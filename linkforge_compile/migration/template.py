@@ -142,9 +142,13 @@ def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list
 
 @dataclass
 class Spec:
-    """The text of a spec, the symbols that it declares by their names, and how many values are raw XML."""
+    """The text of a spec, the symbols that it declares by their names, and the keys of its raw XML.
+
+    `left_out` are elements of the xacro that have no effect.
+    """
 
     text: str
     names: Mapping[Symbol, str]
     used: Mapping[Symbol, None]
     raw: tuple[str, ...] = field(default=())
+    left_out: tuple[Element, ...] = ()

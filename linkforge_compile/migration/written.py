@@ -36,6 +36,7 @@ from linkforge_compile.migration.symbols import (
     with_whole_paths,
 )
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
+from linkforge_compile.migration.without_effect import WITHOUT_EFFECT
 from linkforge_compile.units import number_text
 
 _LENGTH, _ANGLE = "length", "angle"
@@ -73,6 +74,8 @@ class Writer:
         self.placeholders = placeholders
         self.placements: list[Placement] = []
         """The expressions that were written, with the dimensions of their fields."""
+        self.left_out: dict[Element, None] = {}
+        """The elements that have no effect, in their order."""
 
     def document(self, attributes: Mapping[str, Parts], elements: Iterable[str]) -> str:
         """Return a URDF with these elements."""
@@ -86,17 +89,25 @@ class Writer:
             f" {name}={quoteattr(self._attribute((element.tag, name), parts, outcomes, is_plugin=is_plugin))}"
             for name, parts in element.attributes.items()
         )
-        content = self.content(element.content, outcomes, is_plugin=is_plugin) + (mark or "")
+        without = frozenset[str]()
+        if element.tag == "joint" and not is_plugin and "type" in element.attributes:
+            kind = self._attribute(("joint", "type"), element.attributes["type"], outcomes, is_plugin=False)
+            without = WITHOUT_EFFECT.get(kind, without)
+        content = self.content(element.content, outcomes, is_plugin=is_plugin, without=without) + (mark or "")
         return f"<{element.tag}{attributes}>{content}</{element.tag}>" if content else f"<{element.tag}{attributes}/>"
 
-    def content(self, content: Iterable[Content], outcomes: Outcomes, *, is_plugin: bool) -> str:
-        """Return what is in an element."""
+    def content(
+        self, content: Iterable[Content], outcomes: Outcomes, *, is_plugin: bool, without: frozenset[str] = frozenset()
+    ) -> str:
+        """Return what is in an element, without the elements of some tags."""
         pieces: list[str] = []
         for one in content:
-            if isinstance(one, Element):
+            if isinstance(one, Element) and one.tag in without:
+                self.left_out[one] = None
+            elif isinstance(one, Element):
                 pieces.append(self.element(one, outcomes, is_plugin=is_plugin))
             elif isinstance(one, Choice) and holds(one.test, outcomes):
-                pieces.append(self.content(one.content, outcomes, is_plugin=is_plugin))
+                pieces.append(self.content(one.content, outcomes, is_plugin=is_plugin, without=without))
             elif isinstance(one, Text):
                 pieces.append(escape(self._text(one.parts, is_plugin=is_plugin)))
             elif isinstance(one, Comment) and "--" not in one.text:

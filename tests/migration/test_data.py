@@ -2,7 +2,12 @@
 
 from pathlib import Path
 
-from tests.migration.migrated import migrated
+import pytest
+
+from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.migration.prove import Migrator
+from tests.migration.migrated import migrated, write
 
 LIMITS = """\
 elbow: {upper: 1.5}
@@ -69,3 +74,41 @@ def test_python_that_asks_for_the_class_of_a_value_is_computed(tmp_path: Path):
 </xacro:if>
 """
     assert "links:\n  hand_2: {}\n" in migrated(tmp_path, text).robot
+
+
+TAGGED = """\
+base: {size: !millimeters 250, tilt: !degrees pi/2 * 10}
+"""
+
+
+def test_a_file_with_the_tags_of_units_is_data_of_the_spec(tmp_path: Path):
+    (tmp_path / "sizes.yaml").write_text(TAGGED, "utf-8")
+    text = """
+<xacro:property name="sizes" value="${xacro.load_yaml('sizes.yaml')}"/>
+<link name="base"><visual>
+  <origin xyz="0 0 0" rpy="0 0 ${sizes['base']['tilt']}"/>
+  <geometry><sphere radius="${sizes['base']['size']}"/></geometry>
+</visual></link>
+"""
+    made = migrated(tmp_path, text)
+    assert "data:\n  sizes: ../sizes.yaml\n" in made.robot
+    assert "sphere: $(sizes.base.size)" in made.robot
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"a: \xff", "cannot be read: 'utf-8' codec can't decode byte 0xff"),
+        (b"a: !degrees none", "cannot be read: 'none' after !degrees is no number (line 1, column 4)"),
+        (b"a: {", "cannot be read: expected the node content, but found '<stream end>' (line 1, column 5)"),
+    ],
+)
+def test_a_faulty_file_of_data_is_told_on_one_line(tmp_path: Path, data: bytes, reason: str):
+    (tmp_path / "sizes.yaml").write_bytes(data)
+    main = write(
+        tmp_path, robot="""<xacro:property name="a" value="${xacro.load_yaml('sizes.yaml')}"/><link name="l${a}"/>"""
+    )
+    proved = Migrator(main, {}, tmp_path / "specs", Settings((), {}).loader(main), Diagnostics()).run()
+    [kept] = [one for one in proved.diagnostics if one.code.id == "LF8043"]
+    assert reason in kept.message
+    assert "\\n" not in kept.message

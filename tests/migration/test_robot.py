@@ -230,3 +230,18 @@ def test_the_text_of_a_default_is_that_of_the_xacro(tmp_path: Path):
     )
     assert 'serial: 00123\n  version: "1.10"\n' in made.robot
     assert made.proved.comparisons[0].arguments == {}
+
+
+def test_a_tag_of_gazebo_that_is_twice_on_a_condition_only_is_translated(tmp_path: Path):
+    text = """
+<xacro:arg name="gripper" default="tool"/>
+<xacro:property name="gripper" value="$(arg gripper)"/>
+<link name="base"/>
+<gazebo reference="base">
+  <selfCollide>true</selfCollide>
+  <material>Gazebo/White</material>
+  <xacro:if value="${gripper == 'base'}"><material>Gazebo/Grey</material></xacro:if>
+</gazebo>
+"""
+    migrated(tmp_path, text, {"gripper": "base"})
+    migrated(tmp_path, text, {"gripper": "tool"})

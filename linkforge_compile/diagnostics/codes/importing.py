@@ -102,6 +102,10 @@ MIGRATION_UNPROVED = Code(
     "LF8044", _W, "with {arguments}, nothing is compared, because xacro's robot is faulty: {reason}"
 )
 
+ELEMENT_LEFT_OUT = Code(
+    "LF8048", _N, "<{tag}> is left out, because it has no effect on a joint of this type: no reader of URDF acts on it"
+)
+
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
     "LF8132", _E, "this is a URDF, not an SRDF, because it has a <{tag}> of its own; give the robot's SRDF"

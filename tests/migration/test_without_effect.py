@@ -1,0 +1,61 @@
+"""What no reader of URDF acts on is left out with a note; nothing else is."""
+
+from pathlib import Path
+
+from tests.migration.migrated import migrated
+
+LINKS = '<link name="base"/><link name="tool"/>'
+
+
+def test_the_axis_and_limit_of_a_fixed_joint_are_left_out(tmp_path: Path):
+    text = f"""{LINKS}
+<joint name="wrist" type="fixed">
+  <parent link="base"/><child link="tool"/>
+  <axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="5" velocity="2"/>
+</joint>"""
+    made = migrated(tmp_path, text)
+    assert "wrist: {type: fixed, parent: base, child: tool}" in made.robot
+    notes = [one for one in made.proved.diagnostics if one.code.id == "LF8048"]
+    assert [(one.span.line, one.message.split()[0]) for one in notes if one.span] == [(5, "<axis>"), (6, "<limit>")]
+
+
+def test_the_axis_of_a_joint_that_is_fixed_for_some_arguments_only_stays_for_the_others(tmp_path: Path):
+    text = f"""{LINKS}
+<xacro:arg name="free" default="false"/>
+<xacro:property name="kind" value="${{'continuous' if '$(arg free)' == 'true' else 'fixed'}}"/>
+<joint name="wrist" type="${{kind}}">
+  <parent link="base"/><child link="tool"/>
+  <axis xyz="0 1 0"/>
+</joint>"""
+    made = migrated(tmp_path, text)
+    assert len(made.proved.comparisons) == 2
+    assert "axis: $('y' if" in made.robot
+    assert "extra" not in made.robot
+
+
+def test_an_element_that_is_not_known_stays_as_raw_xml(tmp_path: Path):
+    text = f"""{LINKS}
+<joint name="wrist" type="fixed">
+  <parent link="base"/><child link="tool"/>
+  <axis xyz="0 1 0"/>
+  <brake torque="3"/>
+</joint>"""
+    made = migrated(tmp_path, text)
+    assert '<brake torque="3"/>' in made.robot
+    assert "<axis" not in made.robot
+
+
+def test_the_axis_of_the_joint_that_attaches_a_module_is_left_out(tmp_path: Path):
+    text = """<link name="base"/>
+<xacro:macro name="arm" params="prefix parent">
+  <joint name="${prefix}joint" type="fixed">
+    <parent link="${parent}"/><child link="${prefix}arm"/><axis xyz="0 0 1"/>
+  </joint>
+  <link name="${prefix}arm"/>
+</xacro:macro>
+<xacro:arm prefix="left_" parent="base"/>
+<xacro:arm prefix="right_" parent="base"/>"""
+    made = migrated(tmp_path, text)
+    assert "extra" not in made.files["arm.robot.yaml"]
+    assert [one.code.id for one in made.proved.diagnostics].count("LF8048") == 1
