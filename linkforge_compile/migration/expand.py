@@ -28,6 +28,9 @@ from linkforge_compile.migration.template import Choice, Comment, Content, Eleme
 from linkforge_compile.source.xml_tree import XmlComment, XmlContent, XmlElement
 
 _MOST_DEEP = 60
+_MOST_INCLUDED = 50
+_MOST_ELEMENTS = 100_000
+"""The elements of one expansion; the largest robots have a tenth of them."""
 
 Journal: TypeAlias = "list[tuple[Table[Property], str, Property | None]]"
 """What was set, with what was there before."""
@@ -39,10 +42,15 @@ class Expander(Evaluator):
     _documented: Symbol | Lazy | None = None
     """What a comment at the end of the line is about."""
 
+    _walked = 0
+    _including: tuple[Path, ...] = ()
+    """The files around an element that include one another."""
+
     def expand(self) -> FileDraft:
         """Return the robot of the main file."""
         path = self.sources.main
         root = self.sources.open(path).root
+        self._including = (path.resolve(),)
         context = Context(self.robot, path.parent.absolute(), Table(), Table(file=self.robot))
         self.robot.root = root
         self.robot.content = self.walk(root.content, context)
@@ -85,6 +93,9 @@ class Expander(Evaluator):
         }
 
     def _element(self, element: XmlElement, context: Context, before: list[Content]) -> list[Content]:
+        self._walked += 1
+        if self._walked > _MOST_ELEMENTS:
+            raise CannotTranslateError(f"more than {_MOST_ELEMENTS:,} elements")
         match element.tag:
             case "xacro:include":
                 return self._include(element, context)
@@ -125,9 +136,14 @@ class Expander(Evaluator):
                 if is_optional:
                     continue
                 raise UndefinedError(f"the file '{file}', which does not exist,")
+            around = self._including
+            if file.resolve() in around or len(around) == _MOST_INCLUDED:
+                raise CannotTranslateError(f"'{file}', which includes itself or is included too deep,")
             root = self.sources.open(file).root
+            self._including = (*around, file.resolve())
             inside = replace(context, folder=file.parent.absolute(), macros=macros, symbols=symbols)
             made += self.walk(root.content, inside)
+            self._including = around
         return made
 
     def _property(self, element: XmlElement, context: Context, before: list[Content]) -> list[Content]:

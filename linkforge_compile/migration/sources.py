@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag, value_with_tag
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.importers.xml import read_xml
@@ -110,7 +110,10 @@ class Sources:
         """Whether a spec can read a file of data: it refuses keys that are written twice, for example."""
         sink = Diagnostics()
         tags: Tags = {tag: partial(number_with_tag, sink, tag) for tag in UNIT_TAGS}
-        read_data(SourceFile(str(path), path.read_text("utf-8")), sink, tags)
+        try:
+            read_data(SourceFile(str(path), path.read_text("utf-8")), sink, tags)
+        except BeyondLimitError as error:
+            raise CannotTranslateError(f"'{path}' cannot be read: {error}") from None
         return not sink.has_errors
 
 

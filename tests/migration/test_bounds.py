@@ -7,11 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from linkforge_compile.migration import migrate
+from linkforge_compile.analysis import Settings
+from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.migration import expand, migrate
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.python_values import PythonValues, UnknownValueError
-from linkforge_compile.migration.symbols import NotConstantError
-from tests.migration.migrated import migrated
+from linkforge_compile.migration.sources import Sources
+from linkforge_compile.migration.symbols import CannotTranslateError, NotConstantError
+from tests.migration.migrated import migrated, write
 
 HUGE = [
     "10 ** 99 ** 9",
@@ -84,3 +87,48 @@ def test_a_macro_is_planned_again_only_if_something_about_it_is_found(tmp_path: 
     migrated(tmp_path, text)
     assert len(planned) >= 2 * DEPTH
     assert set(planned.values()) == {1}
+
+
+def _expand(main: Path) -> None:
+    sources = Sources(main, Settings((), {}).loader(main), Diagnostics())
+    migrate.migrate({}, sources, migrate.Settled())
+
+
+def test_macros_that_call_themselves_twice_are_not_expanded_without_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(expand, "_MOST_ELEMENTS", 500)
+    twice = '<xacro:m n="${n-1}"/>' * 2
+    main = write(
+        tmp_path, robot=f'<xacro:macro name="m" params="n">{twice}</xacro:macro><xacro:m n="50"/><link name="a"/>'
+    )
+    with pytest.raises(CannotTranslateError, match="more than 500 elements"):
+        _expand(main)
+
+
+@pytest.mark.parametrize("included", ["robot.xacro", "other.xacro"])
+def test_a_file_that_includes_itself_is_told(tmp_path: Path, included: str):
+    main = write(
+        tmp_path,
+        robot=f'<xacro:include filename="{included}"/><link name="a"/>',
+        other='<xacro:include filename="robot.xacro"/>',
+    )
+    with pytest.raises(CannotTranslateError, match=r"robot\.xacro', which includes itself"):
+        _expand(main)
+
+
+def test_a_file_that_is_included_twice_is_not_refused(tmp_path: Path):
+    text = '<xacro:include filename="other.xacro"/><xacro:include filename="other.xacro"/><xacro:a name="base"/>'
+    migrated(tmp_path, text, other='<xacro:macro name="a" params="name"><link name="${name}"/></xacro:macro>')
+
+
+def test_data_whose_aliases_are_too_many_are_no_internal_fault(tmp_path: Path):
+    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 8)]
+    (tmp_path / "sizes.yaml").write_text("\n".join(lines), "utf-8")
+    main = write(
+        tmp_path,
+        robot="""<xacro:property name="a" value="${xacro.load_yaml('sizes.yaml')}"/><link name="l${a['a0'][0]}"/>""",
+    )
+    with pytest.raises(CannotTranslateError, match=r"sizes\.yaml' cannot be read: .*500,000 values"):
+        _expand(main)
