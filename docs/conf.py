@@ -6,6 +6,7 @@ site alone needs is added as the pages are read: the navigation, the list of cod
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from linkforge_compile import __version__
 from linkforge_compile.diagnostics.codes import REGISTER
 
 NAVIGATION = {
-    "Start": ["docs/install", "docs/tutorial", "examples/README"],
+    "Start": ["docs/install", "docs/tutorial", "examples/README", "examples/parts/README"],
     "How-to": [
         "docs/how-to/two-arms",
         "docs/how-to/variants",
@@ -72,18 +73,29 @@ FAMILIES = {
 project = "linkforge-compile"
 version = release = __version__
 root_doc = "README"
-include_patterns = ["*.md", "docs/**", "examples/README.md", "benchmarks/README.md", "editors/vscode/README.md"]
+include_patterns = [
+    "*.md",
+    "docs/**",
+    "examples/README.md",
+    "examples/parts/README.md",
+    "benchmarks/README.md",
+    "editors/vscode/README.md",
+]
 exclude_patterns = ["docs/language.in.md", ".*", "**/node_modules"]
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 suppress_warnings = ["misc.highlighting_failure"]  # the manual shows YAML that is wrong
 nitpick_ignore_regex = [("py:.*", ".*")]  # types of annotations, which have no pages
 myst_heading_anchors = 4  # those of GitHub
+myst_enable_extensions = ["deflist"]
 default_role = "code"  # as docstrings have it
 autodoc_member_order = "bysource"
 toc_object_entries = False  # each page of the site has the whole navigation: with 1,000 members it is slow
 html_theme = "furo"
 html_title = f"{project} {version}"
 html_copy_source = False
+html_show_copyright = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 
 
 def add_what_a_site_needs(app: Sphinx, page: str, source: list[str]) -> None:
@@ -95,12 +107,22 @@ def add_what_a_site_needs(app: Sphinx, page: str, source: list[str]) -> None:
     elif page == "docs/python":
         source[0] += "\n## Reference\n" + _members("linkforge_compile", "Robot") + _members("linkforge_compile.core")
     elif page.startswith("docs/diagnostics/LF"):
-        source[0] = f"---\norphan: true\n---\n{source[0]}"  # listed in docs/diagnostics.md, not in the navigation
+        # Listed in docs/diagnostics.md, not in the navigation.
+        title, _, text = source[0].partition("\n")
+        source[0] = f"---\norphan: true\n---\n{title}\n\n[All diagnostics](../diagnostics.md)\n{text}"
+    elif page == "docs/commands":
+        source[0] = re.sub(r"^```text\n(.*?)^```$", _commands, source[0], flags=re.MULTILINE | re.DOTALL)
 
 
 def _toctree(caption: str, pages: list[str]) -> str:
     listed = "\n".join(f"/{page}" for page in pages)
     return f"\n```{{toctree}}\n:hidden:\n:titlesonly:\n:caption: {caption}\n\n{listed}\n```\n"
+
+
+def _commands(block: re.Match[str]) -> str:
+    """Make a list of the lines of a block, which are too long for a page: a command, blanks, and what it does."""
+    lines = (re.split(r"(?<=\S) {2,}", line, maxsplit=1) for line in block[1].splitlines())
+    return "\n".join(f"`{command}`\n: {' '.join(text) or '…'}\n" for command, *text in lines)
 
 
 def _codes(beginning: str, title: str) -> str:

@@ -40,3 +40,13 @@ def test_python_reference_has_units(site: Path):
     page = (site / "docs" / "python.html").read_text("utf-8")
     assert "linkforge_compile.compile_file" in page
     assert "[N·m]" in page
+
+
+def test_a_code_leads_back_and_a_command_is_not_cut_off(site: Path):
+    assert (
+        'href="../diagnostics.html"'
+        in (site / "docs" / "diagnostics" / "LF1001.html").read_text("utf-8").partition("<article")[2]
+    )
+    commands = (site / "docs" / "commands.html").read_text("utf-8")
+    assert "<dl" in commands
+    assert "<pre>" not in commands.partition("<article")[2]
