@@ -85,6 +85,13 @@ def test_a_misspelt_package_and_a_misspelt_file_are_suggested(tmp_path: Path):
     assert right.stdout.endswith(f"meshes/base.stl: {arm}/meshes/base.stl\n")
 
 
+def test_a_common_ending_makes_no_package_a_misspelling_of_another(tmp_path: Path):
+    scout = package(tmp_path / "src" / "scout_description", "scout_description")
+    done = linkforge("doctor", "ur_description", cwd=scout, **NO_PACKAGES)
+    assert done.returncode == 1
+    assert "no package.xml near here has the name 'ur_description'\n" in done.stdout
+
+
 def test_a_spec_has_the_packages_that_it_names_and_declares(tmp_path: Path):
     package(tmp_path / "vendor", "arm_description")
     (tmp_path / "cell.robot.yaml").write_text(

@@ -189,16 +189,16 @@ def _about_file(file: Path, path: str) -> Iterator[str]:
 
 
 def _ways_out(name: str, search: _Search) -> Iterator[str]:
-    from difflib import get_close_matches
+    from linkforge_compile.diagnostics.suggest import is_misspelling, nearest
 
     nearby = packages_around(search.start, ANYWHERE, {})
     if name in nearby:
         yield f"there is one near here; write --package {name}={shortest(nearby[name])}, or declare it in `packages`"
         return
     known = {**packages_in_environment(), **search.declared, **nearby}
-    # Most names end in `_description`, which alone is no likeness.
-    like = get_close_matches(name, known, 1, cutoff=0.8)
-    yield f"no package.xml near here has the name '{name}'" + (f"; did you mean '{like[0]}'?" if like else "")
+    like = nearest(name, known)
+    is_likely = like is not None and is_misspelling(name, like)  # most names end alike, in `_description`
+    yield f"no package.xml near here has the name '{name}'" + (f"; did you mean '{like}'?" if is_likely else "")
     yield f"if you have it elsewhere, write --package {name}=FOLDER, declare it in `packages`, or source its workspace"
 
 
