@@ -56,10 +56,14 @@ OTHER_FORMATS = [
     ("02_ur5e/ur5e_mocked", "joint_limits"),
     ("02_ur5e/ur5e_mocked", "ros2_controllers"),
     ("02_ur5e/ur5e_mocked", "moveit"),
+    ("09_mobile_manipulator/mobile_manipulator", "sdf"),
     ("09_mobile_manipulator/mobile_manipulator", "mjcf"),
     ("09_mobile_manipulator/mobile_manipulator", "joint_limits"),
 ]
 """The golden files of formats that are written on request."""
+
+OPTIONS = {"09_mobile_manipulator/mobile_manipulator": ["-p", "hardware=gazebo"]}
+"""The options of those files, as examples/README.md has them."""
 
 
 @pytest.mark.parametrize(("example", "format_"), OTHER_FORMATS)
@@ -71,7 +75,9 @@ def test_an_example_compiles_to_other_formats(
         monkeypatch.delenv(name, raising=False)
     spec = ROOT / "examples" / f"{example}.robot.yaml"
     folder = spec.parent if update_golden else tmp_path
-    run = linkforge("compile", str(spec), "-o", str(folder), "--format", format_, cwd=tmp_path)
+    options = OPTIONS.get(example, [])
+    assert " ".join(options) in (ROOT / "examples" / "README.md").read_text("utf-8")
+    run = linkforge("compile", str(spec), "-o", str(folder), *options, "--format", format_, cwd=tmp_path)
     assert run.returncode == 0, run.stderr
     one = format_named(format_)
     target = Path(f"{name_of(spec)}{one.suffix}")

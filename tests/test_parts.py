@@ -1,6 +1,7 @@
 """The catalogue of parts: complete, with sources, with frames as REP 103 has them, and as its README says."""
 
 import re
+import shutil
 from functools import cache
 from pathlib import Path
 
@@ -55,6 +56,21 @@ def test_the_readme_has_the_mass_and_the_frames_of_a_part(part: str):
     assert float(number) * GRAMS[unit] == pytest.approx(robot.total_mass)
     frames = [link.name for link in robot.links if not link.visuals and link.name != "world"]
     assert re.findall(r"`(\w+)`", row[0]) == [part, *frames]
+
+
+@pytest.mark.parametrize("has_clone_inside", [True, False])
+def test_the_snippet_of_the_readme_works_outside_of_the_examples(has_clone_inside: bool, tmp_path: Path):
+    snippet = re.findall(r"^```yaml\n(.*?)^```", README, re.MULTILINE | re.DOTALL)[0]
+    declared = re.findall(r"^packages: .*\n", snippet)[0]
+    clone = (tmp_path / "robot" if has_clone_inside else tmp_path) / "linkforge" / "examples"
+    shutil.copytree(PARTS, clone / "parts")
+    shutil.copy(PARTS.parent / "package.xml", clone)
+    spec = tmp_path / "robot" / "mine.robot.yaml"
+    spec.parent.mkdir(exist_ok=True)
+    text = snippet if has_clone_inside else snippet.replace(declared, "")
+    spec.write_text(f"linkforge: 1\nname: mine\nlinks: {{base_link: {{}}}}\n{text}", "utf-8")
+    robot = compile_file(spec, packages={} if has_clone_inside else {"linkforge_examples": clone}).result()
+    assert {"front_lidar_link", "head_camera_link"} <= {link.name for link in robot.links}
 
 
 @pytest.mark.parametrize("part", ["realsense_d435", "orbbec_femto_bolt"])

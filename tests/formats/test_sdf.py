@@ -6,7 +6,6 @@ import pytest
 
 from linkforge_compile import compile_file
 from linkforge_compile.formats import SDF, Rendering
-from tests.conftest import ROOT
 from tests.formats.sdf import compiled, document, read, rendered, reported
 
 TWO = """
@@ -14,17 +13,6 @@ links:
   base: {inertial: *unit}
   hand: {inertial: *unit}
 """
-
-
-def test_the_golden_file_of_an_example(update_golden: bool):
-    """A mobile manipulator for Gazebo, with sensors, plugins and frames."""
-    spec = ROOT / "examples" / "09_mobile_manipulator" / "mobile_manipulator.robot.yaml"
-    robot = compile_file(spec, parameters={"hardware": "gazebo"}).result()
-    golden = spec.with_suffix("").with_suffix(".sdf")
-    text = SDF.render(robot, Rendering())[0].text
-    if update_golden:
-        golden.write_text(text, "utf-8")
-    assert golden.read_text("utf-8") == text
 
 
 def test_a_link_is_at_its_joint_and_a_joint_at_its_parent():
