@@ -1,6 +1,6 @@
 """Score the legs of a quadruped: simulate how each variant of the walker stands, and print the best.
 
-pip install 'linkforge-compile[sweep]' mujoco
+pip install 'linkforge-compile[sweep]' mujoco      ('.[sweep]' in a clone)
 python score_legs.py
 """
 

@@ -1,7 +1,10 @@
 """Lesson 14, which scores the legs of a quadruped with MuJoCo."""
 
+import ast
 import importlib.util
 import math
+import re
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -33,3 +36,22 @@ def test_a_knee_holds_a_quarter_of_the_weight_at_its_distance_from_the_foot():
         assert row["tilt"] < 0.02
     torques = table["knee_torque"].to_pylist()
     assert torques == sorted(torques)
+
+
+def test_the_python_example_of_the_page_prints_ten_robots(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+):
+    code = re.findall(
+        r"^```python\n(.*?)^```", (ROOT / "docs" / "sweep.md").read_text("utf-8"), re.MULTILINE | re.DOTALL
+    )
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nparameters: {reach: {type: length, default: 0.5 m}, fingers: 2}\n"
+        "links: {base: {visual: {box: [$(reach), 0.1, 0.1]}}}\n",
+        "utf-8",
+    )
+    monkeypatch.chdir(tmp_path)
+    exec(code[0].replace("jobs=4", "jobs=1"), {"__name__": "__main__"})
+    best = ast.literal_eval(capsys.readouterr().out)
+    assert [row["payload"] for row in best] == sorted((row["payload"] for row in best), reverse=True)
+    assert len(best) == 10
+    assert best[0]["reach"] == 0.4
