@@ -93,6 +93,7 @@ toc_object_entries = False  # each page of the site has the whole navigation: wi
 html_theme = "furo"
 html_title = f"{project} {version}"
 html_copy_source = False
+smartquotes = False  # they make a dash of `--` in the names of options
 html_show_copyright = False
 html_static_path = ["static"]
 html_css_files = ["site.css"]
