@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -223,4 +224,7 @@ def _unit_of(parameter: Parameter) -> str:
 
 
 def _interval(parameter: Parameter, low: float, high: float) -> Interval:
-    return Interval(parameter.name, low, high, _unit_of(parameter), parameter.type.name == "integer")
+    is_whole = parameter.type.name == "integer"
+    if low > high or (is_whole and math.ceil(low) > math.floor(high)):
+        raise SweepError(f"'{parameter.name}' has no {parameter.type.name} to draw between {low:g} and {high:g}")
+    return Interval(parameter.name, low, high, _unit_of(parameter), is_whole)

@@ -10,7 +10,10 @@ from typing import NamedTuple
 
 from linkforge_compile._version import __version__
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PARAMETER
+from linkforge_compile.expand.arguments import arguments_from_text
 from linkforge_compile.expand.parameters import Parameter
+from linkforge_compile.load import is_xacro
 from linkforge_compile.sweep.axes import VARIANT, Axis, AxisReader, Varied, too_many
 from linkforge_compile.sweep.bundle import Bundle
 from linkforge_compile.sweep.condition import Condition
@@ -102,6 +105,10 @@ def plan_of(request: Request, choice: Choice, checked: Callable[[int, int], None
     spec = Path(request.spec)
     declared, sink = declared_by(spec, request.settings(Point(0, {}))), Diagnostics()
     varied = _varied(declared, choice, _fixed_names(request), sink)
+    if not is_xacro(spec):
+        for name, entry in arguments_from_text(request.parameters, sink).entries.items():
+            if name not in declared.parameters:
+                sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared.parameters, notes=()))
     if sink.has_errors:
         raise SweepError("the values of the sweep are wrong", sink.sorted())
     axes, parameters = list(varied.axes), dict(varied.parameters)

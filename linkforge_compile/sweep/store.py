@@ -86,10 +86,8 @@ class Store:
         different = [name for name in {**theirs, **ours} if theirs.get(name) != ours.get(name)]
         if not different:
             return
-        lines = [f"  {name}: {_short(theirs.get(name))} before, {_short(ours.get(name))} now" for name in different]
-        raise SweepError(
-            "\n".join((f"'{self.folder}' has another sweep, so --resume cannot continue it; these differ:", *lines))
-        )
+        found = "; ".join(_difference(name, theirs.get(name), ours.get(name)) for name in different)
+        raise SweepError(f"'{self.folder}' has another sweep, so --resume cannot continue it; these differ: {found}")
 
     def add(self, chunk: Chunk, made: Sequence[Made]) -> None:
         """Write the robots of a chunk, then its part of the table."""
@@ -240,6 +238,12 @@ def _fill_zip(sink: io.BytesIO, contents: Mapping[str, bytes]) -> None:
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in contents.items():
             archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+
+
+def _difference(name: str, theirs: object, ours: object) -> str:
+    if isinstance(theirs, Mapping) and isinstance(ours, Mapping):  # files by digest, or options
+        return f"{name} ({', '.join(sorted(one for one in {**theirs, **ours} if theirs.get(one) != ours.get(one)))})"
+    return f"{name}: {_short(theirs)} before, {_short(ours)} now"
 
 
 def _short(value: object) -> str:

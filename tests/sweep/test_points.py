@@ -115,6 +115,8 @@ def test_a_parameter_is_not_varied_twice_or_fixed_as_well(tmp_path: Path):
     with pytest.raises(SweepError) as caught:
         plan(tmp_path, "reach=1m,2m", "reach=1.5m,1m")
     assert caught.value.diagnostics[0].message == "parameter 'reach' is set twice"
+    with pytest.raises(SweepError, match="no parameter named 'raech'; did you mean 'reach'"):
+        plan(tmp_path, "reach=1m,2m", fixed=("raech=1m",))
     with pytest.raises(SweepError, match="'reach' is fixed by -p and varied as well"):
         plan(tmp_path, "reach=1m,2m", fixed=("reach=1m",))
 
@@ -130,6 +132,13 @@ def test_samples_lie_within_the_limits_of_each_parameter(tmp_path: Path):
     assert set(numbers(drawn, "tool")) == {"hand", "hook"}
     assert set(numbers(drawn, "is_long")) == {True, False}
     assert "bend" not in drawn.points[0].values
+
+
+def test_an_integer_needs_a_whole_number_between_its_limits(tmp_path: Path):
+    spec = write_arm(tmp_path)
+    spec.write_text(spec.read_text().replace("minimum: 1, maximum: 5", "minimum: 1.2, maximum: 1.8"))
+    with pytest.raises(SweepError, match=r"'fingers' has no integer to draw between 1\.2 and 1\.8"):
+        plan_of(Request(str(spec), "arm"), Choice(sample=3))
 
 
 def test_a_sample_is_uniform_over_its_interval(tmp_path: Path):
