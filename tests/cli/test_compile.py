@@ -497,7 +497,6 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        ((), "usage: linkforge"),
         (("compile",), "required: SPEC"),
         (
             ("compile", "a.robot.yaml", "b.robot.yaml"),
