@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from functools import partial
 from glob import glob
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlDocument
 from linkforge_compile.syntax import Tags, read_data
 
-_WILDCARDS = "*[?"
+_WILDCARDS = frozenset("*[?")
 
 
 class Sources:
@@ -87,10 +88,18 @@ class Sources:
         }
 
     def included(self, path: str, folder: Path) -> Iterator[Path]:
-        """Yield the files that an `<xacro:include>` names, of which relative paths start in a folder."""
-        whole = folder / path
-        if any(letter in path for letter in _WILDCARDS):
-            yield from map(Path, sorted(glob(str(whole))))  # noqa: PTH207  # the pattern may be absolute
+        """Yield the files that an `<xacro:include>` names, of which relative paths start in a folder.
+
+        Raises:
+            CannotTranslateError: outside of what may be read, whether there is a file or not.
+
+        """
+        whole, roots = folder / path, self.loader.roots
+        if not roots.hold(Path(*takewhile(lambda part: not set(part) & _WILDCARDS, whole.parts))):
+            raise CannotTranslateError(f"'{path}' may not be read; see --allow-outside")
+        if set(path) & _WILDCARDS:
+            found = map(Path, sorted(glob(str(whole))))  # noqa: PTH207  # the pattern may be absolute
+            yield from filter(roots.hold, found)
         else:
             yield whole
 

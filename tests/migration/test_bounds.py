@@ -132,3 +132,13 @@ def test_data_whose_aliases_are_too_many_are_no_internal_fault(tmp_path: Path):
     )
     with pytest.raises(CannotTranslateError, match=r"sizes\.yaml' cannot be read: .*500,000 values"):
         _expand(main)
+
+
+@pytest.mark.parametrize("name", ["/etc/pass*", "/etc/passwd", "/etc/no_such_file", "../../*.xacro"])
+def test_an_include_outside_of_the_roots_does_not_tell_whether_there_is_a_file(name: str, tmp_path: Path):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / ".git").mkdir()
+    main = write(tmp_path / "robot", robot=f'<xacro:include filename="{name}"/><link name="base"/>')
+    sources = Sources(main, Settings().loader(main), Diagnostics())
+    with pytest.raises(CannotTranslateError, match="may not be read; see --allow-outside"):
+        list(sources.included(name, main.parent))
