@@ -1,4 +1,4 @@
-"""What fuzzing kept breaks no promise any more, and none breaks within the seconds of it in CI."""
+"""What fuzzing kept breaks no promise any more, and a few seconds of it in CI break none."""
 
 import os
 from pathlib import Path

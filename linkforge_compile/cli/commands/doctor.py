@@ -39,6 +39,7 @@ examples:
 """
 
 _MOST_NAMES = 12
+_SPEC_ENDINGS = {".yaml", ".yml", ".urdf", ".xacro", ".xml"}
 _PATH = re.compile(r"package://([\w.-]+)/?(.*)")
 _NAMED = re.compile(r"package://([\w.-]+)|\$\(find ([\w.-]+)\)")
 _VARIABLES = ("LINKFORGE_BROWSER", "LINKFORGE_DEBUG", "LINKFORGE_LIMITS", "LINKFORGE_NO_XACRO")
@@ -61,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
-    specs = [word for word in arguments.words if "://" not in word and Path(word).suffix in _SPECS]
+    specs = [word for word in arguments.words if "://" not in word and Path(word).suffix in _SPEC_ENDINGS]
     asked = [word for word in arguments.words if word not in specs]
     declared = {name: Path(folder) for name, folder in packages_of(arguments).items()}
     if len(specs) > 1:
@@ -82,9 +83,6 @@ def run(arguments: argparse.Namespace) -> int:
         write_to_stdout("\n" * (number > 0) + "".join(f"{line}\n" for line in lines))
         are_found &= is_found
     return OK if are_found else FAULTY_SPEC
-
-
-_SPECS = {".yaml", ".yml", ".urdf", ".xacro", ".xml"}
 
 
 def _read_spec(spec: Path, declared: Mapping[str, Path]) -> tuple[_Search, list[str]]:
