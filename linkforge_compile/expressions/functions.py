@@ -148,6 +148,23 @@ def _join(values: Value, separator: Value = " ") -> Value:
     return separator.join(texts)
 
 
+def _split(text: Value) -> Value:
+    """Return the words of a text as a list, those that are numbers as numbers."""
+    if not isinstance(text, str):
+        raise wrong_kind("text", text, operand=0)
+    return tuple(map(_word, text.split()))
+
+
+def _word(word: str) -> Value:
+    if _WHOLE_NUMBER.fullmatch(word):
+        return int(word)
+    if not _DECIMAL_NUMBER.fullmatch(word):
+        return word
+    if not math.isfinite(found := float(word)):
+        raise OverflowError
+    return found
+
+
 def _text(value: Value) -> Value:
     """Return the argument of a function of the file."""
     if isinstance(value, str):
@@ -185,6 +202,7 @@ FUNCTIONS = _by_name(
     _function("float(number)", partial(_to_number, float, _DECIMAL_NUMBER)),
     _function("str(value)", _str),
     _function("join(list) or join(list, separator)", _join, most=2),
+    _function("split(text)", _split),
 )
 """The functions by name."""
 

@@ -27,6 +27,7 @@ from linkforge_compile.migration.symbols import (
     kind_of,
     literal_of,
 )
+from linkforge_compile.migration.vectors import is_data
 
 _PIECES = re.compile(
     r"(?P<escaped>\$\$+(?=[{(]))|\$\{(?P<expression>[^}]*)\}|\$\((?P<extension>[^)]*)\)|(?P<text>[^$]+|\$)"
@@ -174,9 +175,14 @@ class _Translator:
             return constant(str(constant_of(text)).split()[place])
         except (NotConstantError, IndexError):
             pass
-        if not isinstance(text, Reference) or text.symbol.kind not in (UNKNOWN, TEXT, VECTOR):
+        if not isinstance(text, Reference) and not is_data(text):
             raise self.refuse("the call of a method")
-        text.symbol.kind = VECTOR
+        if isinstance(text, Reference) and text.symbol.kind not in (UNKNOWN, TEXT, VECTOR):
+            raise self.refuse("the call of a method")
+        if isinstance(text, Reference):
+            text.symbol.kind = VECTOR
+        else:
+            text = call("split", text)
         return ast.Subscript(value=text, slice=index, ctx=ast.Load())
 
     def _arithmetic(self, node: ast.BinOp) -> ast.expr:

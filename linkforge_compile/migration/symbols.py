@@ -198,6 +198,10 @@ def read_literal(text: str) -> object:
     return _BOOLEANS.get(text, text)
 
 
+_RESULTS = {**dict.fromkeys(("str", "join", "path"), TEXT), "split": VECTOR}
+"""What functions give that give no number."""
+
+
 def kind_of(node: ast.expr) -> str:
     """Return what an expression gives: a number, a boolean, a text, or unknown."""
     literal = literal_of(node)
@@ -221,7 +225,7 @@ def kind_of(node: ast.expr) -> str:
         case ast.IfExp(body=body, orelse=orelse):
             return kind_of(body) if kind_of(body) == kind_of(orelse) else UNKNOWN
         case ast.Call(func=ast.Name(id=name)):
-            return TEXT if name in ("str", "join", "path") else NUMBER
+            return _RESULTS.get(name, NUMBER)
         case ast.Name(id="pi"):
             return NUMBER
         case ast.Name(id="prefix"):

@@ -18,7 +18,6 @@ from linkforge_compile.migration.symbols import (
     UNSET,
     VECTOR,
     Parts,
-    Reference,
     Symbol,
     as_parts,
     is_literal,
@@ -27,7 +26,8 @@ from linkforge_compile.migration.symbols import (
 )
 from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Kept, Spec, Use
 from linkforge_compile.migration.values import Values
-from linkforge_compile.migration.written import Writer, mark_vector
+from linkforge_compile.migration.vectors import as_vector
+from linkforge_compile.migration.written import Writer
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
 
@@ -153,10 +153,6 @@ class Uses:
             symbol = by_wish.get(wish)
             if symbol is None or symbol not in spec.used or _same_value(parts, symbol):
                 continue
-            if len(parts) == 1 and isinstance(parts[0], ast.expr):
-                if symbol.kind == VECTOR and isinstance(parts[0], Reference):
-                    mark_vector(parts[0].symbol, symbol.size)
-                self._writer.placements.append((parts[0], type_of(symbol)))
             given[spec.names[symbol]] = self._placed(parts, symbol, values, where)
         return {
             "use": scalar(f"{use.module.stem}.robot.yaml", where),
@@ -179,6 +175,11 @@ class Uses:
 
     def _placed(self, parts: Parts, symbol: Symbol, values: Values, where: Span) -> YamlNode:
         """Return the value of a parameter."""
+        if len(parts) == 1 and isinstance(node := parts[0], ast.expr):
+            if symbol.kind == VECTOR:
+                node = as_vector(node, symbol.size)
+            self._writer.placements.append((node, type_of(symbol)))
+            parts = (node,)
         if symbol.kind in (BOOLEAN, NUMBER) and is_literal(parts):
             parts = as_parts(value_of(parts)) or ("",)
         return values.value(parts, where, symbol.kind)

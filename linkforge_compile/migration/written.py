@@ -13,16 +13,13 @@ from linkforge_compile.migration.logic import folded
 from linkforge_compile.migration.placeholders import Placeholders, key_of
 from linkforge_compile.migration.symbols import (
     BOOLEAN,
-    MAP,
     NUMBER,
     TEXT,
     UNKNOWN,
     UNSET,
-    VECTOR,
     NotConstantError,
     Parts,
     Reference,
-    Symbol,
     as_expression,
     as_parts,
     constant,
@@ -36,6 +33,7 @@ from linkforge_compile.migration.symbols import (
     with_whole_paths,
 )
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
+from linkforge_compile.migration.vectors import as_vector, is_data
 from linkforge_compile.migration.without_effect import WITHOUT_EFFECT
 from linkforge_compile.units import number_text
 
@@ -144,14 +142,11 @@ class Writer:
             known = None
         if isinstance(known, int | float) or (isinstance(node, Reference) and node.symbol.kind == NUMBER):
             return self._number((node,), dimension)
-        if isinstance(known, str) and not isinstance(node, Reference):
+        if isinstance(known, str) and not (isinstance(node, Reference) or is_data(node)):
             return known
-        if unknown := _data_under(node):
-            raise NotConstantError(frozenset((unknown,)))  # its text is no list in a spec
-        if isinstance(node, Reference):
-            if node.symbol.value and len(node.symbol.value) > 1 and node.symbol.role == "variable":
-                count = len(tokens_of(node.symbol.value))
-            mark_vector(node.symbol, count)
+        if isinstance(node, Reference) and node.symbol.value and len(node.symbol.value) > 1:
+            count = len(tokens_of(node.symbol.value)) if node.symbol.role == "variable" else count
+        node = as_vector(node, count)
         return " ".join(self.placeholders.number(node, component, count) for component in range(count))
 
     def _number(self, token: Parts, dimension: str) -> str:
@@ -226,43 +221,6 @@ def _bare(node: ast.expr) -> list[Reference]:
         case ast.UnaryOp(operand=Reference() as inner):
             return [inner]
     return []
-
-
-def _data_under(node: ast.expr) -> Symbol | None:
-    """Return the data of which a vector is a part, which there are texts."""
-    match node:
-        case ast.Attribute(value=whole) | ast.Subscript(value=whole):
-            while isinstance(whole, ast.Attribute | ast.Subscript):
-                whole = whole.value
-            is_data = isinstance(whole, Reference) and whole.symbol.kind in (MAP, UNKNOWN)
-            return whole.symbol if is_data and isinstance(whole, Reference) else None
-        case Reference(symbol=symbol) if symbol.role == "variable" and symbol.value and len(symbol.value) == 1:
-            value = symbol.value[0]
-            return _data_under(value) if isinstance(value, ast.expr) else None
-    return None
-
-
-def mark_vector(symbol: Symbol, count: int) -> None:
-    """Note that a name is used as a vector, also for the names whose value it is."""
-    if symbol.kind == VECTOR and symbol.size == count:
-        return
-    symbol.kind, symbol.size = VECTOR, count
-    if symbol.value and len(symbol.value) == 1 and isinstance(symbol.value[0], ast.expr):
-        symbol.value = (_as_vector(symbol.value[0], symbol, count),)
-
-
-def _as_vector(node: ast.expr, symbol: Symbol, count: int) -> ast.expr:
-    """Return the value of a vector, with names for the lists among its alternatives, which expressions do not have."""
-    match node:
-        case Reference():
-            mark_vector(node.symbol, count)
-        case ast.IfExp(test=test, body=body, orelse=orelse):
-            sides = [_as_vector(side, symbol, count) for side in (body, orelse)]
-            return ast.IfExp(test=test, body=sides[0], orelse=sides[1])
-        case ast.Constant(value=str() as text):
-            choice = Symbol(f"{symbol.wish}_choice", "variable", (text,), text, VECTOR, place=symbol.place, size=count)
-            return refer(choice)
-    return node
 
 
 def _python_text(value: object) -> str:

@@ -102,6 +102,8 @@ def test_habits_from_elsewhere_are_reported_what_is_written_here(text: str, plac
         ("$(sizes[1.0])", "1.0", "a list takes a whole number in its brackets, found a number"),
         ("$(join(side))", "side", "join() takes a list, found the text 'left'"),
         ("$(join(sizes, 1))", "1", "join() takes text between the items, found a number"),
+        ("$(split(sizes))", "sizes", "split() takes text, found a list"),
+        ("$(split('1 1e999'))", "split('1 1e999')", "the result of split() is not a finite number"),
         ("$(merge(row, sizes))", "sizes", "merge() takes a map, found a list"),
         ("$(side.x)", "side.x", "'.x' takes a map or a vector's x, y, z, found the text 'left'"),
         ("$(count.__class__)", "count.__class__", "'.__class__' takes a map or a vector's x, y, z, found a number"),

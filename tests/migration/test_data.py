@@ -112,3 +112,30 @@ def test_a_faulty_file_of_data_is_told_on_one_line(tmp_path: Path, data: bytes, 
     [kept] = [one for one in proved.diagnostics if one.code.id == "LF8043"]
     assert reason in kept.message
     assert "\\n" not in kept.message
+
+
+def test_a_vector_that_is_a_text_of_data_is_split(tmp_path: Path):
+    (tmp_path / "camera.yaml").write_text("front: {xyz: 0 0 1e-1, rpy: 0 0 0.5}\nrear: {xyz: 0 0 0.2}\n", "utf-8")
+    text = """
+<xacro:arg name="place" default="front"/>
+<xacro:property name="mounts" value="${xacro.load_yaml('camera.yaml')}"/>
+<xacro:macro name="camera" params="name at">
+  <xacro:property name="words" value="${at['rpy'] if 'rpy' in at else '0 0 -0.5'}"/>
+  <link name="${name}"/>
+  <joint name="${name}_joint" type="fixed">
+    <parent link="base"/>
+    <child link="${name}"/>
+    <origin xyz="${at['xyz']}" rpy="${words}"/>
+  </joint>
+  <link name="${name}_lens">
+    <visual><origin xyz="${at['xyz'].split(' ')[2]} 0 0"/><geometry><sphere radius="1"/></geometry></visual>
+  </link>
+  <joint name="${name}_lens_joint" type="fixed"><parent link="${name}"/><child link="${name}_lens"/></joint>
+</xacro:macro>
+<link name="base"/>
+<xacro:camera name="fixed" at="${mounts['rear']}"/>
+<xacro:camera name="chosen" at="${mounts['rear'] if '$(arg place)' == 'rear' else mounts['front']}"/>
+"""
+    made = migrated(tmp_path, text)
+    assert "xyz: $(split(mounts.rear.xyz))" in made.robot
+    assert "$(split(at.xyz)[2])" in made.files["camera.robot.yaml"]

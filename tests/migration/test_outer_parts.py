@@ -85,27 +85,6 @@ def test_a_joint_that_names_the_root_of_one_call_is_written_where_the_module_is_
     assert "front_joint: {type: continuous, parent: base, child: front_link, axis: x}" in made.robot
 
 
-def test_data_with_vectors_as_text_are_those_of_the_module(tmp_path: Path):
-    (tmp_path / "inertials.yaml").write_text("arm: {xyz: 0 0 0.1, mass: 2.0}\n", "utf-8")
-    text = f"""
-<xacro:macro name="arm" params="parent inertials">
-  <joint name="joint" type="fixed"><parent link="${{parent}}"/><child link="arm"/></joint>
-  <link name="arm">
-    <inertial>
-      <origin xyz="${{inertials['arm']['xyz']}}"/>
-      <mass value="${{inertials['arm']['mass']}}"/>
-      <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-  </link>
-</xacro:macro>
-{BASE}
-<xacro:arm parent="base" inertials="${{xacro.load_yaml('inertials.yaml')}}"/>
-"""
-    module = migrated(tmp_path, text).files["arm.robot.yaml"]
-    assert "data:\n  inertials: ../inertials.yaml\n" in module
-    assert "inertial: {mass: $(inertials.arm.mass), origin: [0, 0, 0.1]," in module
-
-
 def test_an_unknown_element_under_a_condition_keeps_the_argument(tmp_path: Path):
     text = f"""
 <xacro:arg name="debug" default="false"/>
