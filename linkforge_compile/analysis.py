@@ -63,7 +63,8 @@ class Settings(NamedTuple):
     `options` are those of the output formats, and `formats` the ones whose limits are reported, none for the default
     ones. `folders` are those where relative paths of meshes start, by the name of the format, as far as they are known.
     `whole` is the budget that this compile shares with others. `buffers` are texts that are read instead of files, such
-    as those of an editor that are not saved, by the real path of the file.
+    as those of an editor that are not saved, by the real path of the file. `beside` is another file that the user
+    names: the spec may read what that one may.
     """
 
     parameters: Parameters | None = None
@@ -76,6 +77,7 @@ class Settings(NamedTuple):
     formats: tuple[str, ...] = ()
     whole: Budget | None = None
     buffers: Mapping[str, str] = MappingProxyType({})
+    beside: Path | None = None
 
     @property
     def packages_by_name(self) -> dict[str, Path]:
@@ -91,6 +93,8 @@ class Settings(NamedTuple):
         """Return the loader of one compile of a file or of a text in a folder; None for a text without a folder."""
         packages = self.packages_by_name
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
+        if self.beside:
+            roots = roots.with_those_around(self.beside)
         return Loader(packages, roots, Budget(within=self.whole), self.buffers)
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:

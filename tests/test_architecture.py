@@ -55,8 +55,8 @@ MAY_IMPORT = {
         "pipeline fresh_stack gc_paused"
     ),
     "migration": (
-        "source diagnostics units syntax expressions core compilation importers load compare analysis pipeline "
-        "importing paths expand"
+        "source diagnostics units syntax expressions core compilation importers load compare listing analysis pipeline "
+        "importing paths roots expand"
     ),
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.analysis import Settings
 from linkforge_compile.compare import compare
 from linkforge_compile.compilation import Compilation
 from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
 from linkforge_compile.importing import as_read_back, import_urdf
+from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
 from linkforge_compile.migration.without_effect import leave_out
-from linkforge_compile.pipeline import compile_path, compile_text
+from linkforge_compile.pipeline import compile_path, compile_source
+from linkforge_compile.roots import identity
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
@@ -39,38 +43,60 @@ class Comparison(NamedTuple):
         return not (self.differences or self.fault or self.refused)
 
 
+class Specs(NamedTuple):
+    """Specs to compare: the path of the robot's, the names of its parameters by argument, and texts that are no files.
+
+    The `texts` are by file name, in the folder of the robot's.
+    """
+
+    path: Path
+    names: Mapping[str, str]
+    texts: Mapping[str, str] = MappingProxyType({})
+
+
 class Prover:
     """Proves the specs of one xacro; the robots that xacro expands are kept for the next attempt."""
 
-    def __init__(self, main: Path, packages: Mapping[str, Path], *, allow_outside: bool) -> None:
-        self._main, self._packages, self._allow_outside = main, packages, allow_outside
+    def __init__(self, main: Path, loader: Loader) -> None:
+        """`loader` has the packages, and whether the user allows to read anything."""
+        self._main = main
+        self._settings = Settings((), {**loader.packages}, allow_outside=loader.roots.is_anywhere)
         self._expanded: dict[tuple[tuple[str, str], ...], Robot | str] = {}
 
-    def compare(self, spec: Path, names: Mapping[str, str], combinations: Iterable[Arguments]) -> list[Comparison]:
-        """Return the comparison of each combination; `names` are those of the parameters by argument."""
-        compared = (self._compared(spec, names, arguments) for arguments in combinations)
+    def compare(self, specs: Specs, combinations: Iterable[Arguments]) -> list[Comparison]:
+        """Return the comparison of each combination."""
+        compared = (self._compared(specs, arguments) for arguments in combinations)
         return [one for one in compared if not (one.refused and OTHER_WORD in one.arguments.values())]
 
-    def compiled(self, spec: Path, names: Mapping[str, str], combinations: Iterable[Arguments]) -> Iterator[Robot]:
-        """Yield the robots that a spec compiles to."""
+    def compiled(self, specs: Specs, combinations: Iterable[Arguments]) -> Iterator[Robot]:
+        """Yield the robots that specs compile to."""
         for arguments in combinations:
-            robot = self._compile(spec, names, arguments).robot
+            robot = self._compile(specs, arguments).robot
             if robot is not None:
                 yield robot
 
-    def _compile(self, spec: Path, names: Mapping[str, str], arguments: Arguments) -> Compilation:
-        pairs = [f"{names[name]}={value}" for name, value in arguments.items() if name in names]
-        return compile_path(spec, Settings(pairs, {**self._packages}, allow_outside=True))
+    def outside_of(self, specs: Specs, arguments: Arguments) -> Diagnostic | None:
+        """Return the report of a file that the xacro may read, and a compile of the specs alone may not."""
+        alone = self._compile(specs, arguments, is_alone=True)
+        return next((one for one in alone.diagnostics if one.code is OUTSIDE_ROOTS), None)
 
-    def _compared(self, spec: Path, names: Mapping[str, str], arguments: Arguments) -> Comparison:
+    def _compile(self, specs: Specs, arguments: Arguments, *, is_alone: bool = False) -> Compilation:
+        pairs = [f"{specs.names[name]}={value}" for name, value in arguments.items() if name in specs.names]
+        folder = specs.path.parent
+        buffers = {identity(folder / name): text for name, text in specs.texts.items()}
+        settings = self._settings._replace(parameters=pairs, buffers=buffers, beside=None if is_alone else self._main)
+        return compile_path(specs.path, settings)
+
+    def _compared(self, specs: Specs, arguments: Arguments) -> Comparison:
         expected = self._expansion(arguments)
         if isinstance(expected, str):
             return Comparison(arguments, refused=expected)
-        compilation = self._compile(spec, names, arguments)
+        compilation = self._compile(specs, arguments)
         if compilation.robot is None:
             return Comparison(arguments, fault=_first_error(compilation.diagnostics))
-        back, _ = as_read_back(compilation.robot)
-        robot = back or compilation.robot
+        robot, faults = as_read_back(compilation.robot)
+        if robot is None:
+            return Comparison(arguments, fault=_first_error(faults))
         leave_out(robot)
         found = compare(expected, robot, tolerance=TOLERANCE, semantic=False)
         return Comparison(arguments, tuple(f"{'/'.join(one.path)}: {one.text}" for one in found))
@@ -83,18 +109,11 @@ class Prover:
 
     def _expand(self, arguments: Arguments) -> Robot | str:
         pairs = [f"{name}:={value}" for name, value in arguments.items()]
-        imported = import_urdf(
-            self._main, arguments=pairs, packages={**self._packages}, allow_outside=self._allow_outside
-        )
+        packages, allow_outside = self._settings.packages, self._settings.allow_outside
+        imported = import_urdf(self._main, arguments=pairs, packages=packages, allow_outside=allow_outside)
         if imported.text is None:
             return _first_error(imported.diagnostics)
-        compilation = compile_text(
-            imported.text,
-            name=str(self._main),
-            folder=self._main.parent,
-            packages={**self._packages},
-            allow_outside=True,
-        )
+        compilation = compile_source(imported.text, str(self._main), self._main.parent, self._settings)
         if compilation.robot is None:
             return _first_error(compilation.diagnostics)
         leave_out(compilation.robot)

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import shlex
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.importing import XACRO_KEPT
+from linkforge_compile.diagnostics.codes.importing import PARAMETER_GONE, SPEC_NEEDS_OUTSIDE, XACRO_KEPT
+from linkforge_compile.listing import Listing
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Migration, Settled, migrate, stem_of
-from linkforge_compile.migration.proof import Comparison, Prover
+from linkforge_compile.migration.proof import Comparison, Prover, Specs
 from linkforge_compile.migration.report import Figures, faults_of, figures_of, notes_of
 from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import CannotTranslateError
@@ -44,7 +43,8 @@ class Proved:
     def is_equal(self) -> bool:
         """Whether what was compared is equal, and something was."""
         equal = [one for one in self.comparisons if one.is_equal]
-        return bool(equal) and all(one.is_equal or one.refused for one in self.comparisons)
+        has_errors = any(one.severity is Severity.ERROR for one in self.diagnostics)
+        return bool(equal) and not has_errors and all(one.is_equal or one.refused for one in self.comparisons)
 
 
 @dataclass
@@ -62,7 +62,7 @@ class Migrator:
 
     def run(self) -> Proved:
         """Return the specs with the fewest macros in place that are proved."""
-        prover = Prover(self.main, self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
+        prover = Prover(self.main, self.loader)
         settled = Settled()
         migration = self._migrated(settled)
         if isinstance(migration, CannotTranslateError):
@@ -93,7 +93,7 @@ class Migrator:
             reason = next(iter(migration.calls.kept.values()))
             return self._kept(CannotTranslateError(reason), prover)
         migration, comparisons = self._with_computed_inertia(migration, comparisons, settled, prover)
-        diagnostics = [*notes_of(migration), *faults_of(comparisons)]
+        diagnostics = [*notes_of(migration), *faults_of(comparisons), *self._outside(migration, prover)]
         figures = figures_of(migration, comparisons)
         return Proved(migration.main, migration.files, comparisons, diagnostics, figures, migration.names)
 
@@ -103,10 +103,7 @@ class Migrator:
         """Return the specs without the inertias that are those of the shapes."""
         if _failures(comparisons):
             return migration, comparisons
-        combinations = migration.combinations[:_MOST_COMPILED]
-        with self._in_files(migration.files) as folder:
-            robots = prover.compiled(folder / migration.main, migration.names, combinations)
-            computed = computed_inertias(robots)
+        computed = computed_inertias(prover.compiled(self._specs(migration), migration.combinations[:_MOST_COMPILED]))
         if not computed:
             return migration, comparisons
         other = self._migrated(replace(settled, computed=computed))
@@ -115,28 +112,34 @@ class Migrator:
             return other, found
         return migration, comparisons
 
-    @contextmanager
-    def _in_files(self, files: Mapping[str, str]) -> Iterator[Path]:
-        """Write specs into a temporary folder beside their own, so that their paths lead where they will."""
-        parent = self.folder.absolute().parent
-        parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=parent, prefix=".migrate") as temporary:
-            folder = Path(temporary)
-            for name, text in files.items():
-                (folder / name).write_text(text, "utf-8")
-            yield folder
+    def _specs(self, migration: Migration) -> Specs:
+        return Specs(self.folder / migration.main, migration.names, migration.files)
+
+    def _outside(self, migration: Migration, prover: Prover) -> Iterator[Diagnostic]:
+        """Yield a warning if the specs need a file that only the migration may read."""
+        specs = self._specs(migration)
+        if found := prover.outside_of(specs, self.given):
+            yield SPEC_NEEDS_OUTSIDE.at(found.span, spec=str(specs.path), reason=found.message)
 
     def verify(self) -> Proved:
         """Compare the specs in the folder, which may have been changed since, with the xacro."""
-        prover = Prover(self.main, self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
+        prover = Prover(self.main, self.loader)
         migration = self._migrated(Settled())
         if isinstance(migration, CannotTranslateError):
             return self._kept(migration, prover)
-        spec = self.folder / migration.main
-        comparisons = prover.compare(spec, migration.names, migration.combinations)
+        path, names = self.folder / migration.main, migration.names
+        listing, _ = self._parameters_of(path)
+        known = names.values() if listing is None else {one.name for one in listing.parameters}
+        missing = [name for name in names if names[name] not in known]
+        specs = Specs(path, {argument: name for argument, name in names.items() if name in known})
+        comparisons = prover.compare(specs, migration.combinations)
+        gone = [PARAMETER_GONE.at(None, spec=str(path), name=names[one], argument=one) for one in missing]
         figures = figures_of(migration, comparisons)
-        faults = list(faults_of(comparisons))
-        return Proved(migration.main, migration.files, comparisons, faults, figures, migration.names)
+        faults = [*gone, *faults_of(comparisons)]
+        return Proved(migration.main, migration.files, comparisons, faults, figures, names)
+
+    def _parameters_of(self, path: Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
+        return parameters_of(path, packages=self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
 
     def _migrated(self, settled: Settled) -> Migration | CannotTranslateError:
         try:
@@ -158,26 +161,25 @@ class Migrator:
     def prove(
         self, migration: Migration, prover: Prover, combinations: Sequence[Arguments] | None = None
     ) -> list[Comparison]:
-        """Compare the specs, written into a temporary folder beside their own, for all combinations or some."""
+        """Compare the specs for all combinations or some."""
         if combinations is None:
             combinations = migration.combinations
-        with self._in_files(migration.files) as folder:
-            return prover.compare(folder / migration.main, migration.names, combinations)
+        return prover.compare(self._specs(migration), combinations)
 
     def _kept(self, error: CannotTranslateError, prover: Prover) -> Proved:
         """Return a spec that uses the xacro as it is, with the arguments as parameters."""
         report = XACRO_KEPT.at(error.where, reason=error.reason)
         faults = [one for one in self.sink.sorted() if one.severity is Severity.ERROR and error.where is None]
-        listing, _ = parameters_of(self.main, packages=self.loader.packages, allow_outside=True)
+        listing, _ = self._parameters_of(self.main)
         known = {one.name: one.default or "" for one in listing.parameters} if listing else {}
         document = self.sources.documents.get(self.main.absolute())
         robot = (document.root.get("name") if document else None) or ""
         text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head(), robot)
         name = f"{stem_of(self.main)}.robot.yaml"
-        with self._in_files({name: text}) as folder:
-            comparisons = prover.compare(folder / name, parameter_names(known), [dict(self.given)])
+        specs = Specs(self.folder / name, parameter_names(known), {name: text})
+        comparisons = prover.compare(specs, [dict(self.given)])
         diagnostics = [*faults, report, *faults_of(comparisons)]
-        return Proved(name, {name: text}, comparisons, diagnostics, names=parameter_names(known))
+        return Proved(name, {name: text}, comparisons, diagnostics, names=specs.names)
 
 
 def _first_failure(comparisons: Sequence[Comparison]) -> str:

@@ -106,6 +106,13 @@ ELEMENT_LEFT_OUT = Code(
     "LF8048", _N, "<{tag}> is left out, because it has no effect on a joint of this type: no reader of URDF acts on it"
 )
 
+SPEC_NEEDS_OUTSIDE = Code("LF8049", _W, "'linkforge compile {spec}' will fail here: {reason}")
+PARAMETER_GONE = Code(
+    "LF8050",
+    _E,
+    "'{spec}' has no parameter '{name}', which is the argument '{argument}' of the xacro; write it, or migrate again",
+)
+
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
     "LF8132", _E, "this is a URDF, not an SRDF, because it has a <{tag}> of its own; give the robot's SRDF"
