@@ -149,8 +149,8 @@ def _end(joint: Element, tag: str) -> str:
 
 
 def require_known_blocks(file: FileDraft) -> None:
-    """Refuse a module in which a block of a call is needed anywhere but as the origin of the attaching joint."""
+    """Refuse a module in which a block that is no parameter is anywhere but in the attaching joint."""
     attached = file.attachment.content if file.attachment else []
     for one in walk(file.content):
-        if isinstance(one, Element) and one.calls[:1] == ("block",) and one not in attached:
+        if isinstance(one, Element) and one.calls == ("block", "") and one not in attached:
             raise CannotTranslateError("it inserts a block of its call")

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from linkforge_compile.migration.attachment import find_attachment, outer_parts, require_known_blocks
+from linkforge_compile.migration.binding import bind
+from linkforge_compile.migration.blocks import block_symbol, marker
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.evaluate import Called, Context, Evaluator, MacroCalls
 from linkforge_compile.migration.kept import kept_call
@@ -32,7 +34,16 @@ from linkforge_compile.migration.symbols import (
     symbols_in,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Comment, Content, Element, FileDraft, Use, elements_in, split
+from linkforge_compile.migration.template import (
+    BlockForm,
+    Comment,
+    Content,
+    Element,
+    FileDraft,
+    Use,
+    elements_in,
+    split,
+)
 from linkforge_compile.source.xml_tree import XmlElement
 
 
@@ -58,6 +69,8 @@ class Plan:
     """Parameters that have the same value in all calls, and are no parameters of the module."""
     outer: dict[XmlElement, frozenset[XmlElement]] = field(default_factory=dict)
     """What of a macro is about other parts, and so belongs to the file that uses it."""
+    blocks: dict[XmlElement, dict[str, BlockForm]] = field(default_factory=dict)
+    """The blocks that can be parameters."""
 
 
 class Calls(MacroCalls):
@@ -91,7 +104,7 @@ class Calls(MacroCalls):
             (macro.body, *(one.macro.body for one in context.calls))
         )
         scope: Table[Property] = Table(symbols, file=context.file if is_single else None)
-        self._bind(called, values, scope, evaluator)
+        bind(called, values, scope, evaluator)
         inside = replace(context, macros=Table(macros), symbols=scope, calls=(*context.calls, called))
         try:
             called.content = evaluator.walk(macro.body.content, inside)
@@ -109,43 +122,6 @@ class Calls(MacroCalls):
             return [*([Comment(comment, follows=False)] if comment else []), *called.content]
         return self._used(called, macros, evaluator)
 
-    def _bind(self, called: Called, values: dict[str, str], scope: Table[Property], evaluator: Evaluator) -> None:
-        """Give the parameters of a macro their values in a scope."""
-        macro, context = called.macro, called.context
-        for name, value in values.items():
-            if name not in macro.parameters:
-                raise CannotTranslateError(f"a parameter '{name}', which the macro '{macro.name}' does not have,")
-            called.arguments[name] = evaluator.text(value, context)
-        content = evaluator.walk(called.element.content, context)
-        blocks = [one for one in content if isinstance(one, Element)]
-        if any(isinstance(one, Choice | Use) for one in content):
-            raise CannotTranslateError(f"a call of '{macro.name}' whose block is not certain")
-        for parameter in macro.parameters:
-            if parameter.startswith("*"):
-                if not blocks:
-                    raise CannotTranslateError(f"a call of '{macro.name}' whose block is not certain")
-                block = blocks.pop(0)
-                inside = block.content if parameter.startswith("**") else [block]
-                scope.entries[parameter] = Block(content=tuple(inside))
-            elif parameter not in called.arguments:
-                called.arguments[parameter] = self._default(macro, parameter, context, evaluator)
-        for name, parts in called.arguments.items():
-            scope.entries[name] = Value(value_of(parts))
-
-    def _default(self, macro: Macro, parameter: str, context: Context, evaluator: Evaluator) -> Parts:
-        forwarded, default = macro.defaults.get(parameter, (None, None))
-        node = None if forwarded is None else evaluator.lookup(forwarded, context)
-        entry = context.symbols.get(forwarded) if forwarded else None
-        test = entry.test if isinstance(entry, Value) else None
-        if node is not None and (test is None or default is None):
-            return as_parts(node) or ("",)
-        if default is None and parameter not in macro.defaults:
-            raise CannotTranslateError(f"a call of '{macro.name}' without '{parameter}'")
-        otherwise = evaluator.text(unquoted(default or ""), context)
-        if node is None or test is None:
-            return otherwise
-        return as_parts(ast.IfExp(test=test, body=node, orelse=value_of(otherwise)))
-
     # Modules
 
     def _used(self, called: Called, macros: Table[Macro], evaluator: Evaluator) -> list[Content]:
@@ -154,7 +130,7 @@ class Calls(MacroCalls):
         module = self.modules.get(macro.body)
         if module is None:
             module = self._module(called, macros, evaluator)
-        use = Use(module.file, dict(called.arguments), called.element)
+        use = Use(module.file, dict(called.arguments), called.element, blocks=called.blocks)
         for name, find in module.imports.items():
             use.arguments[name] = as_parts(find(called.context, evaluator)) or ("",)
         use.inline, outer = split(called.content, self._plan.outer.get(macro.body, ()))
@@ -193,8 +169,7 @@ class Calls(MacroCalls):
         entries: dict[str, Property] = {}
         for parameter in macro.parameters:
             if parameter.startswith("*"):
-                block = Element("origin", {}, [], calls=("block", parameter))
-                entries[parameter] = Block(content=(block,))
+                entries[parameter] = Block(content=(self._block(macro, parameter, file),))
                 continue
             if parameter in self._plan.fixed.get(macro.body, ()):
                 entries[parameter] = Value(_own_value(parameter, value_of(called.arguments[parameter]), file))
@@ -207,6 +182,16 @@ class Calls(MacroCalls):
             file.symbols.append(symbol)
             entries[parameter] = Value(refer(symbol))
         return entries
+
+    def _block(self, macro: Macro, parameter: str, file: FileDraft) -> Element:
+        """Return what stands for a block in a module."""
+        form = self._plan.blocks.get(macro.body, {}).get(parameter)
+        if form is None:
+            return Element("origin", {}, [], calls=("block", ""))
+        symbol = block_symbol(parameter, form)
+        file.symbols.append(symbol)
+        file.blocks[parameter] = symbol, form
+        return marker(symbol, form)
 
     def _require_own_ends(self, called: Called, outer: frozenset[XmlElement]) -> None:
         """Refuse a module in this one that has the joint of this one, or what this one leaves to its user."""

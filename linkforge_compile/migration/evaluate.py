@@ -61,12 +61,13 @@ class Context:
 
 @dataclass(eq=False)
 class Called:
-    """One call of a macro: the values of its parameters, and what it expanded to."""
+    """One call of a macro: the values of its parameters, its blocks, and what it expanded to."""
 
     macro: Macro
     element: XmlElement
     context: Context
     arguments: dict[str, Parts] = field(default_factory=dict)
+    blocks: dict[str, list[Content]] = field(default_factory=dict)
     content: list[Content] = field(default_factory=list)
 
 

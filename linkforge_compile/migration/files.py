@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
@@ -19,6 +18,7 @@ from linkforge_compile.migration.merge import CannotMergeError, Merger
 from linkforge_compile.migration.nodes import map_of, scalar
 from linkforge_compile.migration.parameters import comment_of, declaration, names_of
 from linkforge_compile.migration.placeholders import Placeholders
+from linkforge_compile.migration.raw import raw_element, raw_elements, raw_in, valid_variants, without_marks
 from linkforge_compile.migration.repeat import repeated
 from linkforge_compile.migration.symbols import CannotTranslateError, NotConstantError, Symbol, symbols_in
 from linkforge_compile.migration.template import Element, FileDraft, Spec
@@ -93,7 +93,7 @@ class FileMaker:
         rest: dict[str, YamlNode] = {}
         self._take_materials(read, sections)
         if REST in groups.by_key:
-            self._extra += _raw_elements(read[0].tree, lambda tag: tag not in (*NAMED, "gazebo"))
+            self._extra += raw_elements(read[0].tree, lambda tag: tag not in (*NAMED, "gazebo"))
         for group in groups.by_key.values():
             self._take(group, read, merger, sections, rest)
         self._comments, self._endings = _moved(read[0].comments, merger.moved)
@@ -103,7 +103,7 @@ class FileMaker:
         self._comments |= uses.comments
         made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
         text = write(made, self._comments, self._endings)
-        raw = tuple(_raw_in(made))
+        raw = tuple(raw_in(made))
         return Spec(f"{head}{text}", self._names, dict(self._values.used), raw, tuple(self._writer.left_out))
 
     def _read(self, text: str, outside: frozenset[str]) -> Imported:
@@ -145,10 +145,9 @@ class FileMaker:
             key = key or (entry.key if entry else None)
             found.append((outcomes, node if is_present else None))
             is_raw = is_present and (node is None or group.is_twofold(outcomes))
-            raw.append((outcomes, _raw_element(tree, group.key) if is_raw else None))
-        if any(node is not None for _, node in found) and not self._keeps_raw:
-            # What is raw for some outcomes only is no valid part then, such as hardware without a plugin.
-            kept = [number for number, (_, node) in enumerate(found) if node is not None or raw[number][1] is None]
+            raw.append((outcomes, raw_element(tree, group.key) if is_raw else None))
+        if not self._keeps_raw:
+            kept = valid_variants([node for _, node in found], [node for _, node in raw])
             found, raw = [found[number] for number in kept], [raw[number] for number in kept]
         node = self._merged(group, found, merger)
         self._extra += [one for one in self._merged_raw(group, raw, merger) if one is not None]
@@ -189,7 +188,7 @@ class FileMaker:
     def _assemble(self, sections: Mapping[str, YamlNode], first: YamlMap, where: Span) -> YamlMap:
         filled = {name: self._values.fill(node) for name, node in sections.items()}
         if self._extra:
-            filled["extra"] = self._values.fill(_without_marks(YamlList(tuple(self._extra), where)))
+            filled["extra"] = self._values.fill(without_marks(YamlList(tuple(self._extra), where)))
         if isinstance(links := filled.get("links"), YamlMap):
             filled["links"] = links.mapped(self._without_inertia)
         if isinstance(blocks := filled.get("gazebo"), YamlList) and len(blocks) == 1:
@@ -268,41 +267,6 @@ def _block(tree: YamlMap, mark: str) -> YamlNode | None:
     return None
 
 
-def _raw_elements(tree: YamlMap, is_wanted: Callable[[str], bool]) -> list[YamlScalar]:
-    """Return the raw XML of the robot whose tags are wanted."""
-    extra = tree.get("extra")
-    items = extra.items if isinstance(extra, YamlList) else () if extra is None else (extra,)
-    return [
-        one
-        for one in items
-        if isinstance(one, YamlScalar) and is_wanted(re.split(r"[\s/>]", one.text[1:], maxsplit=1)[0])
-    ]
-
-
-def _raw_element(tree: YamlMap, key: tuple[str, str]) -> YamlScalar | None:
-    """Return the raw XML of a group: the element of its tag that has its name or mark."""
-    tag, name = key
-    sign = f"<{MARK}>{name}</{MARK}>" if tag == "gazebo" else f'name="$(prefix){name}"'
-    found = _raw_elements(tree, lambda one: one == tag)
-    texts = [one for one in found if sign in one.text]
-    if len(texts) < 2:
-        return texts[0] if texts else None
-    whole = "\n".join(one.text for one in texts)  # a name may be written twice
-    return YamlScalar(whole, whole, texts[0].span)
-
-
-def _without_marks(extra: YamlNode) -> YamlNode:
-    """Return raw XML without the marks of blocks."""
-    if isinstance(extra, YamlList):
-        return YamlList(tuple(map(_without_marks, extra)), extra.span)
-    if isinstance(extra, YamlMap):
-        return extra.mapped(lambda entry: _without_marks(entry.value))
-    if isinstance(extra, YamlScalar):
-        text = re.sub(rf"\s*<{MARK}>\d+</{MARK}>", "", extra.text)
-        return YamlScalar(text, text, extra.span)
-    return extra
-
-
 def _order(symbols: list[Symbol]) -> dict[Symbol, tuple[int, int]]:
     """Return the order of symbols: by file, in which they have the order of their definitions."""
     files: dict[str, int] = {}
@@ -335,16 +299,3 @@ def _maps(node: YamlNode | None) -> list[YamlMap]:
     """Return a map, or those in a list."""
     items = node.items if isinstance(node, YamlList) else (node,)
     return [one for one in items if isinstance(one, YamlMap)]
-
-
-def _raw_in(node: YamlNode) -> Iterator[str]:
-    """Yield the raw XML in a tree."""
-    if isinstance(node, YamlMap):
-        for entry in node:
-            if entry.name in ("extra", "extra_attributes", "extra_inside"):
-                yield entry.name
-            else:
-                yield from _raw_in(entry.value)
-    elif isinstance(node, YamlList):
-        for item in node:
-            yield from _raw_in(item)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TypedDict
 
 from linkforge_compile.migration.attachment import find_attachment, outer_parts, repeated_parts
+from linkforge_compile.migration.blocks import form_of
 from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import Arguments, combinations_of, domain_of
 from linkforge_compile.migration.constants import constant_of
@@ -199,6 +200,9 @@ def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
         plan.outer[body] = frozenset().union(*(outer_parts(one.content) for one in calls))
         plan.outer[body] |= repeated_parts([one.content for one in calls])
         plan.modules[body] = _kinds(calls)
+        blocks = {name: [one.blocks.get(name, []) for one in calls] for name in calls[0].blocks}
+        forms = {name: form_of(found, is_list=name.startswith("**")) for name, found in blocks.items()}
+        plan.blocks[body] = {name: form for name, form in forms.items() if form}
         _settle(plan, body, calls, inline)
     return plan
 

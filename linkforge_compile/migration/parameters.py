@@ -10,6 +10,7 @@ from linkforge_compile.expressions.functions import RESERVED_NAMES
 from linkforge_compile.migration.nodes import map_of, scalar
 from linkforge_compile.migration.symbols import (
     BOOLEAN,
+    LIST,
     MAP,
     NUMBER,
     UNSET,
@@ -54,7 +55,7 @@ def type_of(symbol: Symbol) -> str:
         return "file"
     if symbol.kind == VECTOR:
         return "vector" if symbol.size == 3 else "list"
-    if symbol.kind in (BOOLEAN, MAP):
+    if symbol.kind in (BOOLEAN, MAP, LIST):
         return symbol.kind
     if symbol.kind == NUMBER and symbol.is_in_text and not symbol.dimensions and _is_spelled(symbol):
         return "string"
@@ -79,6 +80,8 @@ def is_file(symbol: Symbol) -> bool:
 def declaration(symbol: Symbol, values: Values, where: Span) -> YamlNode:
     """Return the declaration of a parameter, in its short form where the default has its type."""
     kind = type_of(symbol)
+    if symbol.is_block and kind == LIST:
+        return YamlList((), where)
     default = None if symbol.value is None else _default(symbol, symbol.value or ("",), values, where)
     is_known = isinstance(default, YamlList | YamlScalar) and "$(" not in getattr(default, "text", "")
     choices = None

@@ -15,7 +15,7 @@ Part: TypeAlias = "str | ast.expr"
 Parts: TypeAlias = tuple[Part, ...]
 """A text: its literal pieces, and the expressions between them. A single expression keeps its type."""
 
-NUMBER, BOOLEAN, TEXT, VECTOR, MAP, UNKNOWN = "number", "boolean", "text", "vector", "map", "unknown"
+NUMBER, BOOLEAN, TEXT, VECTOR, MAP, LIST, UNKNOWN = "number", "boolean", "text", "vector", "map", "list", "unknown"
 
 
 class NotConstantError(Exception):
@@ -99,6 +99,8 @@ class Symbol:
     """Whether it is a piece of a text, as it was given."""
     is_argument: bool = False
     """Whether it is an argument of the whole robot."""
+    is_block: bool = False
+    """Whether it is a parameter for a block of elements."""
 
     def __deepcopy__(self, memo: object) -> Symbol:
         return self

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.migration.symbols import Parts, Symbol
 from linkforge_compile.source.xml_tree import XmlElement
@@ -47,6 +47,13 @@ class Comment:
     follows: bool = False
 
 
+class BlockForm(NamedTuple):
+    """What a block of a call is: the tag of its elements or `shape`, and whether they are a list."""
+
+    tag: str
+    is_list: bool
+
+
 @dataclass(eq=False)
 class Use:
     """A use of a module, with the values of its parameters; `blocks` are those of its block parameters."""
@@ -59,6 +66,7 @@ class Use:
     attachment: Element | None = None
     """The joint among that which attaches the module."""
     comment: str = ""
+    blocks: dict[str, list[Content]] = field(default_factory=dict)
 
 
 @dataclass(eq=False)
@@ -97,6 +105,8 @@ class FileDraft:
     stem: str = ""
     """The name of its file, without the ending."""
     is_module: bool = False
+    blocks: dict[str, tuple[Symbol, BlockForm]] = field(default_factory=dict)
+    """The parameters of a module for the blocks of its macro."""
 
     @property
     def parameters(self) -> list[Symbol]:

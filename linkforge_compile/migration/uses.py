@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.migration.attachment import parts_of
+from linkforge_compile.migration.blocks import carrier, given_block
 from linkforge_compile.migration.nodes import map_of, scalar
 from linkforge_compile.migration.parameters import type_of
 from linkforge_compile.migration.placeholders import Placeholders
@@ -24,7 +25,7 @@ from linkforge_compile.migration.symbols import (
     literal_of,
     value_of,
 )
-from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Kept, Spec, Use
+from linkforge_compile.migration.template import BlockForm, Choice, Content, Element, FileDraft, Kept, Spec, Use
 from linkforge_compile.migration.values import Values
 from linkforge_compile.migration.vectors import as_vector
 from linkforge_compile.migration.written import Writer
@@ -33,6 +34,7 @@ from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
 
 _MOUNT = "linkforge_mount"
 _CARRIER = "linkforge_use_"
+_BLOCK = "linkforge_block_"
 
 
 class Uses:
@@ -59,7 +61,7 @@ class Uses:
         made: list[Content] = []
         for one in content:
             if isinstance(one, Use | Kept):
-                made += self._carrier(one, len(self._uses))
+                made += self._carriers(one, len(self._uses))
                 self._uses.append((one, guards))
             elif isinstance(one, Choice):
                 made.append(Choice(one.test, self._without_uses(one.content, (*guards, one.test)), one.origin))
@@ -69,20 +71,31 @@ class Uses:
                 made.append(one)
         return made
 
-    def _carrier(self, use: Use | Kept, number: int) -> list[Content]:
-        """Return a joint that carries the parent and the origin of a use."""
+    def _carriers(self, use: Use | Kept, number: int) -> list[Content]:
+        """Return a joint that carries the parent and the origin of a use, and a link for each of its blocks."""
+        blocks: list[Content] = []
         if isinstance(use, Kept):
             if use.parent is None:
                 return []
             parent, origin = Element("parent", {"link": use.parent}, []), use.origin
-        elif use.attachment is None:
-            return []
         else:
+            blocks += [
+                carrier(f"{_BLOCK}{number}_{symbol.wish}", form, content) for symbol, form, content in self._blocks(use)
+            ]
+            if use.attachment is None:
+                return blocks
             parts = {one.tag: one for one in use.attachment.content if isinstance(one, Element)}
             parent, origin = parts["parent"], parts.get("origin")
         child = Element("child", {"link": (f"{_CARRIER}{number}",)}, [])
         content: list[Content] = [parent, child, *([origin] if origin else [])]
-        return [Element("joint", {"name": (f"{_CARRIER}{number}",), "type": ("fixed",)}, content)]
+        return [Element("joint", {"name": (f"{_CARRIER}{number}",), "type": ("fixed",)}, content), *blocks]
+
+    def _blocks(self, use: Use) -> Iterator[tuple[Symbol, BlockForm, list[Content]]]:
+        """Yield the parameters of a module for blocks, with what a use of it gives."""
+        used = self._modules[use.module].used
+        for parameter, (symbol, form) in use.module.blocks.items():
+            if symbol in used:
+                yield symbol, form, use.blocks[parameter]
 
     def names(self) -> frozenset[str]:
         """Return the names of the links and joints of the modules."""
@@ -94,11 +107,11 @@ class Uses:
 
     def take(self, sections: dict[str, dict[str, YamlEntry]]) -> None:
         """Take the joints that carry something out of the sections."""
-        joints = sections["joints"]
-        for name in [name for name in joints if name.startswith(_CARRIER)]:
-            body = joints.pop(name).value
-            if isinstance(body, YamlMap):
-                self._carried[name] = body
+        for section in (joints := sections["joints"], sections["links"]):
+            for name in [name for name in section if name.startswith((_CARRIER, _BLOCK))]:
+                body = section.pop(name).value
+                if isinstance(body, YamlMap):
+                    self._carried[name] = body
         for name, entry in list(joints.items()):
             if isinstance(entry.value, YamlMap) and entry.value.text("parent") == _MOUNT:
                 self._mount = YamlEntry(entry.key, entry.value.without("parent", "origin"))
@@ -113,7 +126,7 @@ class Uses:
         for number, (use, guards) in enumerate(self._uses):
             name = self._entry_name(use, entries)
             carried = self._carried.get(f"{_CARRIER}{number}")
-            own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, values, where)
+            own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, number, values, where)
             entries[name] = self._entry(own, guards, carried, where)
         if entries:
             made["modules"] = modules = map_of(entries, where)
@@ -144,16 +157,19 @@ class Uses:
             "with": map_of(given, where) if given else None,
         }
 
-    def _own(self, use: Use, values: Values, where: Span) -> dict[str, YamlNode | None]:
+    def _own(self, use: Use, number: int, values: Values, where: Span) -> dict[str, YamlNode | None]:
         """Return what the entry of a module has of its own."""
         spec = self._modules[use.module]
         given: dict[str, YamlNode | None] = {}
-        by_wish = {symbol.wish: symbol for symbol in use.module.symbols if symbol.role == "parameter"}
+        parameters = [one for one in use.module.symbols if one.role == "parameter" and not one.is_block]
+        by_wish = {symbol.wish: symbol for symbol in parameters}
         for wish, parts in use.arguments.items():
             symbol = by_wish.get(wish)
             if symbol is None or symbol not in spec.used or _same_value(parts, symbol):
                 continue
             given[spec.names[symbol]] = self._placed(parts, symbol, values, where)
+        for symbol, form, _ in self._blocks(use):
+            given[spec.names[symbol]] = given_block(form, self._carried[f"{_BLOCK}{number}_{symbol.wish}"], where)
         return {
             "use": scalar(f"{use.module.stem}.robot.yaml", where),
             "prefix": scalar("", where),

@@ -6,16 +6,21 @@ import ast
 import copy
 from itertools import chain, count
 
+from linkforge_compile.migration.blocks import stands_for_block
 from linkforge_compile.migration.nodes import data_of
 from linkforge_compile.migration.placeholders import PLACEHOLDER, Placeholders
 from linkforge_compile.migration.symbols import (
+    LIST,
     UNSET,
     VECTOR,
+    CannotTranslateError,
     Part,
     Parts,
     Reference,
     Symbol,
+    as_expression,
     as_parts,
+    constant,
     is_literal,
     joined,
     literal_of,
@@ -84,6 +89,8 @@ class Values:
                 return self._filled(node)
             case YamlList():
                 return self._list(node)
+            case YamlMap() if block := self._block(node):
+                return block
             case YamlMap():
                 entries: dict[str, YamlEntry] = {}
                 for entry in node:
@@ -94,6 +101,33 @@ class Values:
                 self.moved[node] = made
                 return made
         return node
+
+    def _block(self, node: YamlMap) -> YamlScalar | None:
+        """Return the parameter that a map stands for; None if it is none.
+
+        Raises:
+            CannotTranslateError: if a block is a part of what stands there.
+
+        """
+        block = self._block_in(stands_for_block(node))
+        if block is None:
+            if any(self._block_in(entry.value) for entry in node if entry.name != "origin"):
+                raise CannotTranslateError("it inserts a block of its call beside others")
+            return None
+        when = node.get("when")
+        if isinstance(when, YamlScalar):
+            test = as_expression(self._placeholders.parts(when.text))
+            text = f"$({self.expression(ast.IfExp(test=test, body=block, orelse=constant(None)))})"
+        else:
+            text = f"$({self.expression(block)})"
+        return YamlScalar(text, text, node.span)
+
+    def _block_in(self, node: YamlNode | None) -> Reference | None:
+        """Return the parameter for a block that a number, or the first of a list, stands for."""
+        first = node.items[0] if isinstance(node, YamlList) and len(node) else node
+        placed = self._placeholders.of(first.text) if isinstance(first, YamlScalar) else None
+        block = placed.node if placed else None
+        return block if isinstance(block, Reference) and block.symbol.is_block else None
 
     def _list(self, node: YamlList) -> YamlNode:
         found = [self._placeholders.of(item.text) if isinstance(item, YamlScalar) else None for item in node]
@@ -106,6 +140,11 @@ class Values:
         ):
             text = f"$({self.expression(first.node)})"
             return YamlScalar(text, text, node.span)
+        blocks = [self._block_in(stands_for_block(item)) for item in node if isinstance(item, YamlMap)]
+        if any(one is not None and one.symbol.kind == LIST for one in blocks):
+            if len(node) == 1:
+                return self.fill(node.items[0])
+            raise CannotTranslateError("it inserts a block of its call beside others")
         items = tuple(self.fill(item) for item in node)
         for old, new in zip(node, items, strict=True):
             self.moved[old] = new

@@ -51,7 +51,7 @@ def is_data(node: ast.expr) -> bool:
 
 def mark_vector(symbol: Symbol, count: int) -> None:
     """Note that a name is used as a vector, also for the names whose value it is."""
-    if symbol.kind == VECTOR and symbol.size == count:
+    if symbol.is_block or (symbol.kind == VECTOR and symbol.size == count):
         return
     symbol.kind, symbol.size = VECTOR, count
     if symbol.value and len(symbol.value) == 1 and isinstance(symbol.value[0], ast.expr):

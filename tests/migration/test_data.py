@@ -139,3 +139,28 @@ def test_a_vector_that_is_a_text_of_data_is_split(tmp_path: Path):
     made = migrated(tmp_path, text)
     assert "xyz: $(split(mounts.rear.xyz))" in made.robot
     assert "$(split(at.xyz)[2])" in made.files["camera.robot.yaml"]
+
+
+def test_an_inertia_that_data_always_have_has_no_alternative_without_it(tmp_path: Path):
+    (tmp_path / "inertials.yaml").write_text("arm: {mass: 2.0, inertia: {xx: 1.0, yy: 1.0, zz: 1.5}}\n", "utf-8")
+    text = """
+<xacro:macro name="part" params="name inertials">
+  <link name="${name}">
+    <xacro:if value="${name in inertials}">
+      <inertial>
+        <mass value="${inertials[name].mass}"/>
+        <xacro:if value="${'inertia' in inertials[name]}">
+          <xacro:property name="I" value="${inertials[name].inertia}"/>
+          <inertia ixx="${I.xx}" iyy="${I.yy}" izz="${I.zz}" ixy="0" ixz="0" iyz="0"/>
+        </xacro:if>
+      </inertial>
+    </xacro:if>
+  </link>
+</xacro:macro>
+<xacro:part name="arm" inertials="${xacro.load_yaml('inertials.yaml')}"/>
+<xacro:part name="tip" inertials="${xacro.load_yaml('inertials.yaml')}"/>
+<joint name="joint" type="fixed"><parent link="arm"/><child link="tip"/></joint>
+"""
+    module = migrated(tmp_path, text).files["part.robot.yaml"]
+    assert "when: $(base_name in inertials)\n" in module
+    assert "extra" not in module
