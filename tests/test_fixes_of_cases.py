@@ -35,9 +35,13 @@ UNCOVERED = {
     "LF2101_things_under_other_keys": "the name of a link is misspelt",
     "LF2101_keys_that_belong_together": "a joint lacks more",
     "LF2155_lines_of_sections_lost": "the lines of other sections are lost, too",
+    **dict.fromkeys(("LF3225_override_with_nothing", "LF3204_key_that_does_not_tell_apart"), "the entry is used"),
+    "LF1007_map_without_braces": "of two fixes, one is right",
+    "LF5324_mount_and_joint_of_a_group": "a group names the joint",
     # the fix, which is not safe, is wrong
     **dict.fromkeys(("LF3020_unknown_parameter", "LF4103_state_of_a_module"), "the name is there already"),
     "LF2101_entry_outside_its_section": "of two sections, one is wrong",
+    "LF3091_link_outside_free_parts": "a joint is no child of a joint",
     "LF3221_override_of_what_is_not_there": "the link that the override deletes is used",
     "LF1005_space_after_dash_of_a_map": "the next line was aligned without the space",
 }

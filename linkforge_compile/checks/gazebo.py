@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.checks.names import Reference
 from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
+from linkforge_compile.core.models.gazebo import BLOCK_THAT_KEEPS_JOINT, KEEP_FIXED_JOINT
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
@@ -21,6 +22,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     MERGED_LINK_NAMED,
     TINY_MASS,
 )
+from linkforge_compile.diagnostics.entry_fixes import add_entry
 from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.units import number_text
 
@@ -100,7 +102,8 @@ def check_merged_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
     merged = {joint.name for joint in _merged_joints(robot)} if robot.gazebo_elements else set()
     for block in robot.gazebo_elements:
         if block.reference in merged and block.reference not in robot.links and _has_settings(block):
-            yield BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
+            fault = BLOCK_OF_MERGED_JOINT.at(block.source, joint=block.reference)
+            yield fault.with_fix(add_entry(block.source, entry="preserveFixedJoint: true"))
 
 
 def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -115,7 +118,8 @@ def check_merged_links(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]
         for path, name in _named_links(plugin.parameters):
             if joint := merged.get(name):
                 ref = Reference(name, f"plugin '{plugin.name}'", plugin.source or block.source, ("parameters", *path))
-                yield ref.report(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+                fault = ref.report(MERGED_LINK_NAMED, link=name, parent=joint.parent, joint=joint.name)
+                yield fault.with_fix(add_entry(joint.source, entry=BLOCK_THAT_KEEPS_JOINT, after="type"))
 
 
 class _Tag(NamedTuple):
@@ -240,8 +244,6 @@ def _links_that_carry_mass(robot: Robot, above: Mapping[str, Joint]) -> set[str]
 
 def _has_settings(block: GazeboElement) -> bool:
     """Return whether a block holds more than whether to keep its joint."""
-    from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT
-
     fields = (block.material, block.static, block.stop_cfm, block.stop_erp, block.provide_feedback)
     is_more = any(field is not None for field in (*fields, block.implicit_spring_damper))
     return is_more or bool(block.plugins or block.extra_elements or block.properties.keys() - {*KEEP_FIXED_JOINT})

@@ -22,6 +22,7 @@ from linkforge_compile.diagnostics.codes.model import (
     OWN_PARENT_GROUP,
     PARENT_LINK_OUTSIDE_GROUP,
 )
+from linkforge_compile.diagnostics.entry_fixes import exchange
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.srdf import Chain
@@ -57,7 +58,9 @@ def check_chains(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[
                 continue
             code, end = (CHAIN_UPWARD, "base_link") if meeting == chain.tip_link else (CHAIN_ACROSS, "tip_link")
             ref = Reference(group.name, f"planning group '{group.name}'", chain.source or group.source, (end,))
-            yield ref.report(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
+            fault = ref.report(code, base=chain.base_link, tip=chain.tip_link, meeting=meeting)
+            ends = [chain.source.at(key) if chain.source else None for key in ("base_link", "tip_link")]
+            yield fault.with_fix(exchange("swap them", *ends) if code is CHAIN_UPWARD else None)
 
 
 def check_empty_groups(robot: Robot, _: UnresolvedNames, links: LinkSets) -> Iterator[Diagnostic]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from linkforge_compile.checks.bounding import MESH_SLACK, primitive_volume
 from linkforge_compile.checks.mesh_files import RobotMeshes
@@ -28,6 +28,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     WIDE_INERTIA,
     ZERO_INERTIA,
 )
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.units import UNITS, Dimension, units_of
 
 ROUNDING = 1e-6
@@ -145,7 +146,8 @@ def check_inertia_scale(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnosti
             part = moment / boxed
             if part > LARGEST * bounds.slack:
                 code, hint = LARGE_INERTIA, _unit_hint(part)
-                yield code.at(link.source, "inertial", "inertia", link=link.name, factor=_power(part), hint=hint)
+                fault = code.at(link.source, "inertial", "inertia", link=link.name, factor=_power(part), hint=hint)
+                yield fault.with_fix(_with_unit(link, hint.rpartition(" ")[2]) if hint else None)
             elif 0 < part < SMALLEST:
                 yield SMALL_INERTIA.at(link.source, "inertial", "inertia", link=link.name, factor=_power(part))
         elif moment > inertial.mass * WIDEST**2:
@@ -165,6 +167,35 @@ def _unit_hint(part: float) -> str:
     """Return a hint at the unit that the number is probably in, "" without one."""
     factor = min(TOO_LARGE, key=lambda factor: abs(math.log10(part / USUAL / factor)))
     return f"; write the unit if it is in {TOO_LARGE[factor]}" if 0.3 < part / USUAL / factor < 3 else ""
+
+
+def _with_unit(link: Link, unit: str) -> Fix | None:
+    """Return the fix that writes a unit after all moments of a link; None if one of them has its own."""
+    moments = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    return _change_moments(
+        link, f"write '{unit}'", moments, lambda text: f"{text} {unit}" if _NUMBER.fullmatch(text) else None
+    )
+
+
+def _negated(text: str) -> str | None:
+    """Return a number or a quantity with the opposite sign; None for an expression or another text."""
+    number = text.split(" ", maxsplit=1)[0]
+    return (text[1:] if text.startswith("-") else f"-{text}") if _NUMBER.fullmatch(number) else None
+
+
+def _change_moments(link: Link, title: str, moments: Iterable[str], change: Callable[[str], str | None]) -> Fix | None:
+    """Return the fix that changes the moments and products of a link that are written; None if one cannot be."""
+    inertial = link.source.node.child("inertial") if link.source else None
+    tensor = None if inertial is None else inertial.child("inertia")
+    values = [] if tensor is None else [tensor.child(name) for name in moments]
+    places = [value.span for value in values if value is not None]
+    texts = [change(place.text or "") for place in places if not place.file.is_xml and place.origin is None]
+    if not texts or len(texts) < len(places) or None in texts:
+        return None
+    return Fix(title, tuple(Edit(place, text) for place, text in zip(places, texts, strict=True) if text))
+
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
 def check_centre_of_mass(robot: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:
@@ -201,7 +232,8 @@ def check_signs_of_products(robot: Robot, _: UnresolvedNames) -> Iterator[Diagno
             # The powers of 1e200 m and 1e-200 m are beyond a double.
             continue
         if is_turned:
-            yield TURNED_PRODUCTS.at(link.source, "inertial", "inertia", link=link.name)
+            fault = TURNED_PRODUCTS.at(link.source, "inertial", "inertia", link=link.name)
+            yield fault.with_fix(_change_moments(link, "change the signs", ("ixy", "ixz", "iyz"), _negated))
 
 
 def _has_negated_products(tensor: InertiaTensor, computed: InertiaTensor) -> bool:

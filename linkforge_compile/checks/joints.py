@@ -32,6 +32,8 @@ from linkforge_compile.diagnostics.codes.model import (
     SOFT_LIMITS_CROSSED,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_JOINT
+from linkforge_compile.diagnostics.entry_fixes import leave_out_all
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.source import Key
 
 WITHIN_LIMITS: dict[str, str] = {JointType.REVOLUTE: "rad", JointType.PRISMATIC: "m"}
@@ -231,9 +233,11 @@ def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
             continue
         written = [side for side in ("lower", "upper") if getattr(limits, side) is not None]
         if any(getattr(limits, side) for side in written):
-            yield RANGE_OF_ENDLESS_JOINT.at(
-                joint.source, "limits", written[0], joint=joint.name, limits=" and ".join(written)
-            )
+            sides = " and ".join(written)
+            fault = RANGE_OF_ENDLESS_JOINT.at(joint.source, "limits", written[0], joint=joint.name, limits=sides)
+            type_ = joint.source.at("type") if joint.source else None
+            out = leave_out_all(joint.source, [("limits", side) for side in written], f"leave out {sides}")
+            yield fault.with_fix(Replacement("", JointType.REVOLUTE).within(type_), out)
 
 
 def check_joint_power(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

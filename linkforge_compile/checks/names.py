@@ -99,7 +99,8 @@ def check_frame_names(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
             yield FRAME_WITH_SLASH.at(link.source, name=link.name)
     for sensor in robot.sensors:
         if sensor.frame and sensor.frame.startswith("/"):
-            yield FRAME_WITH_SLASH.at(sensor.source, "frame", name=sensor.frame)
+            fault = FRAME_WITH_SLASH.at(sensor.source, "frame", name=sensor.frame)
+            yield fault.replacing(sensor.frame, sensor.frame.removeprefix("/"), is_whole=True)
 
 
 def _report_duplicates(kind: str, parts: Iterable[NamedPart], user: str = "") -> Iterator[Diagnostic]:

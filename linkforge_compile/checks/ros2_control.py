@@ -28,6 +28,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     STARTS_OUTSIDE_LIMITS,
     UNKNOWN_INTERFACE,
 )
+from linkforge_compile.diagnostics.entry_fixes import leave_out
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.source import SourceRef
 
@@ -296,7 +297,8 @@ def check_mimics_in_hardware(robot: Robot, _: UnresolvedNames) -> Iterator[Diagn
                     yield ref._replace(path=("extra_attributes", "mimic")).report(NO_MIMIC, joint=joint.name)
             elif driven.command_interfaces:
                 ref = ref._replace(path=(COMMANDS,))
-                yield ref.report(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
+                fault = ref.report(MIMIC_COMMANDED, joint=joint.name, leader=joint.mimic.joint)
+                yield fault.with_fix(leave_out(driven.source, COMMANDS))
             elif (
                 joint.mimic.joint not in listed
                 and robot.has_joint(joint.mimic.joint)

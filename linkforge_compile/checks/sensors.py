@@ -22,6 +22,7 @@ from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_PLUGIN_JOINT,
 )
 from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN, UNRESOLVED_PACKAGE
+from linkforge_compile.diagnostics.entry_fixes import add_entry
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.gazebo import GazeboPlugin
@@ -68,7 +69,8 @@ def check_scanners(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagno
     """
     for sensor in robot.sensors:
         if INFO_FIELDS[sensor.type] == "lidar_info" and sensor.lidar_info is None and not sensor.extra_elements:
-            yield SCANNER_WITHOUT_RAYS.at(sensor.source, "type", name=sensor.name, type=sensor.type)
+            fault = SCANNER_WITHOUT_RAYS.at(sensor.source, "type", name=sensor.name, type=sensor.type)
+            yield fault.with_fix(add_entry(sensor.source, entry="lidar: {}", after="type"))
 
 
 def check_contacts(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

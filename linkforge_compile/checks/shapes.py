@@ -23,6 +23,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNTOUCHED_VISUALS,
     WIDE_MESH,
 )
+from linkforge_compile.diagnostics.entry_fixes import add_to_short_form
 from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.roots import is_folder
 from linkforge_compile.source import Key
@@ -110,7 +111,10 @@ def _fault_in(meshes: RobotMeshes, mesh: Mesh) -> Diagnostic | None:
     if scan and scan.fault:
         return HOLLOW_MESH_FILE.at(mesh.source, "file", path=mesh.resource, reason=scan.fault)
     widest = max(box.sides) if box else 0.0
-    return WIDE_MESH.at(mesh.source, "file", path=mesh.resource, size=f"{widest:.2g}") if widest > MAX_WIDTH else None
+    if widest <= MAX_WIDTH:
+        return None
+    fault = WIDE_MESH.at(mesh.source, "file", path=mesh.resource, size=f"{widest:.2g}")
+    return fault.with_fix(add_to_short_form(mesh.source, "file", "scale: 0.001"))
 
 
 def check_mesh_formats(_: Robot, meshes: RobotMeshes) -> Iterator[Diagnostic]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
 from linkforge_compile.checks.names import Reference, notes_at, own_positions, report_unknown
+from linkforge_compile.checks.state_order import group_of, names_in_order, report_states_in_other_order
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
@@ -73,23 +74,8 @@ def check_semantic_groups(robot: Robot, unresolved: UnresolvedNames) -> Iterator
     MoveIt drops a group with an unknown subgroup, and states and end effectors of unknown groups.
     """
     groups = {group.name: group for group in robot.semantic.groups}
-    for state in robot.semantic.group_states:
-        if state.group not in unresolved and (reordered := _reordered(state, groups)):
-            ref = _group_of(state)
-            names = [name.removeprefix(ref.prefix) for name in reordered]
-            hint = f"; the group comes first: write '{': {'.join(names)}: …{'}' * (len(names) - 1)}'"
-            yield ref.report(UNKNOWN_GROUP, name=state.group.removeprefix(ref.prefix), hint=hint)
+    yield from report_states_in_other_order(robot.semantic.group_states, groups, unresolved)
     yield from report_unknown(_groups(robot, groups), UNKNOWN_GROUP, groups, unresolved, hint="")
-
-
-def _reordered(state: GroupState, groups: Collection[str]) -> tuple[str, ...]:
-    """Return group, state and joint of a state that has them in another order; () for any other state."""
-    if state.group in groups:
-        return ()
-    if state.name in groups:
-        return state.name, state.group
-    group = next((joint for joint in state.joint_values if joint in groups), None)
-    return (group, state.name, state.group) if group else ()
 
 
 def check_virtual_joints(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
@@ -185,16 +171,12 @@ def _joints(robot: Robot) -> Iterator[Reference]:
         for place, joint in enumerate(group.joints):
             yield Reference(joint, f"planning group '{group.name}'", group.source, ("joints", place))
     for state in semantic.group_states:
-        for joint, key in own_positions(state).items() if not _reordered(state, groups) else ():
+        for joint, key in own_positions(state).items() if not names_in_order(state, groups) else ():
             yield Reference(joint, f"state '{state.name}' of group '{state.group}'", state.source, (key,))
     for passive in semantic.passive_joints:
         yield Reference(passive.name, "passive_joints", passive.source)
     for remark in semantic.joint_properties:
         yield Reference(remark.joint_name, f"joint property '{remark.property_name}'", remark.source, ("joint_name",))
-
-
-def _group_of(state: GroupState) -> Reference:
-    return Reference(state.group, f"group state '{state.name}'", state.source, ("group",))
 
 
 def _groups(robot: Robot, known: Collection[str]) -> Iterator[Reference]:
@@ -203,7 +185,7 @@ def _groups(robot: Robot, known: Collection[str]) -> Iterator[Reference]:
     for group in semantic.groups:
         for place, subgroup in enumerate(group.subgroups):
             yield Reference(subgroup, f"planning group '{group.name}'", group.source, ("subgroups", place))
-    yield from (_group_of(state) for state in semantic.group_states if not _reordered(state, known))
+    yield from (group_of(state) for state in semantic.group_states if not names_in_order(state, known))
     for effector in semantic.end_effectors:
         user = f"end effector '{effector.name}'"
         yield Reference(effector.group, user, effector.source, ("group",))

@@ -90,9 +90,10 @@ class Diagnostic:
         """Return it with the fix of a Replacement in its span; the same diagnostic if that is not possible."""
         return self.with_fix(Replacement(old, new, is_safe, is_whole).within(self.span))
 
-    def with_fix(self, fix: Fix | None) -> Diagnostic:
-        """Return it with one more fix; the same diagnostic for None."""
-        return replace(self, fixes=(*self.fixes, fix)) if fix else self
+    def with_fix(self, *fixes: Fix | None) -> Diagnostic:
+        """Return it with more fixes, without those that are None; the same diagnostic for none."""
+        more = tuple(fix for fix in fixes if fix)
+        return replace(self, fixes=(*self.fixes, *more)) if more else self
 
     def __str__(self) -> str:
         place = f"{self.span}: " if self.span else ""

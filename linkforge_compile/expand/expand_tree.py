@@ -318,8 +318,9 @@ def _is_valid_for(names: YamlMap, key: YamlScalar | None, evaluator: Evaluator) 
         if evaluator.sink.has_error_in(key.span):
             return False
         missing = [name for name in names.entries if name not in evaluator.names_in(key)]
-        examples = [(name, f"{key.text}_$({name})") for name in missing]
-        faults = [KEY_WITHOUT_NAME.at(key.span, name=name, example=example) for name, example in examples]
+        faults = [
+            KEY_WITHOUT_NAME.at(key.span, name=name, key=key.text, example=f"{key.text}_$({name})") for name in missing
+        ]
     evaluator.sink.report_all(faults)
     return not faults
 

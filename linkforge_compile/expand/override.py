@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from linkforge_compile.diagnostics import Code, DeletedNames, Diagnostics, Note
@@ -17,7 +17,9 @@ from linkforge_compile.diagnostics.codes.modules import (
     POSITIONS_AND_KEYS,
     SAME_AS_BEFORE,
 )
+from linkforge_compile.diagnostics.entry_fixes import move_entry
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, listed
+from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expand.long_forms import (
     excluded_keys,
@@ -30,8 +32,9 @@ from linkforge_compile.expand.values import plain_value
 from linkforge_compile.expressions import Fault, Value
 from linkforge_compile.expressions.operators import AXES
 from linkforge_compile.schema.json_schema import WORDS
-from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.source import Change, TracedSpan
+from linkforge_compile.schema.nesting import as_path
+from linkforge_compile.schema.shapes import FREE, Shape, nested, shapes, split_path
+from linkforge_compile.source import Change, SourceRef, TracedSpan
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
@@ -52,16 +55,25 @@ class Override:
     sink: Diagnostics
 
 
-def report_empty(node: YamlNode, shape: Shape, sink: Diagnostics, field: str = "module") -> None:
-    """Report every value of a written override that is left empty, which is not even `null`."""
+def report_empty(node: YamlNode, shape: Shape, sink: Diagnostics, key: YamlScalar | None = None) -> None:
+    """Report every value of a written override that is left empty, which is not even `null`; `key` is its key."""
+    field = key.text if key else "module"
     if isinstance(node, YamlScalar) and node.value is None and not node.text and not shape.is_plain:
-        sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+        sink.report(EMPTY_OVERRIDE.at(node.span, field=field).with_fix(_null_after(key)))
     elif isinstance(node, YamlMap):
         if not node.entries:
-            sink.report(EMPTY_OVERRIDE.at(node.span, field=field))
+            sink.report(EMPTY_OVERRIDE.at(node.span, field=field).replacing("", "null"))
         for entry in node:
             if entry.name not in WORDS or shape.is_plain:
-                report_empty(entry.value, shape.under(entry.name), sink, entry.name)
+                report_empty(entry.value, shape.under(entry.name), sink, entry.key)
+
+
+def _null_after(key: YamlScalar | None) -> Fix | None:
+    """Return the fix that writes `null` after a key; None if its colon is not next to it."""
+    if key is None or key.span.file.line(key.span.line)[key.span.end_column - 1 :][:1] != ":":
+        return None
+    after = key.span.within(len(key.span.text or ""), 1)
+    return Fix("write 'null'", (Edit(after, ": null"),))
 
 
 def apply_patch(override: Override, tree: YamlMap, deleted: DeletedNames) -> YamlMap:
@@ -69,7 +81,7 @@ def apply_patch(override: Override, tree: YamlMap, deleted: DeletedNames) -> Yam
 
     `deleted` explains names that are missing in the tree.
     """
-    return _Patcher(override.sink, deleted, tree).patch_map(tree, override.patch, shapes())
+    return _Patcher(override.sink, deleted, tree, override.patch).patch_map(tree, override.patch, shapes())
 
 
 def deletes(node: YamlNode) -> bool:
@@ -80,11 +92,12 @@ def deletes(node: YamlNode) -> bool:
 class _Patcher:
     """Applies one patch to one tree."""
 
-    def __init__(self, sink: Diagnostics, deleted: DeletedNames, module: YamlMap) -> None:
+    def __init__(self, sink: Diagnostics, deleted: DeletedNames, module: YamlMap, patch: YamlMap) -> None:
         """`module` is the whole tree, where a name may be that is missing in one section."""
         self._sink = sink
         self._deleted = deleted
         self._module = module
+        self._patch = patch
 
     def patch_map(self, base: YamlMap, patch: YamlMap, shape: Shape) -> YamlMap:
         """Return an object or a map of names with its patch applied."""
@@ -182,18 +195,26 @@ class _Patcher:
         if hint and isinstance(change.value, YamlFault):
             return  # the schema reported it with the same hint
         if name in self._module.section("mount") and shape is shapes().under("joints"):
-            self._report(MOUNT_IS_NO_JOINT, change)
+            self._report(MOUNT_IS_NO_JOINT, change, fix=self._moved("joints", change, "mount"))
             return
         notes = self._deleted.notes(name)
-        hint = "" if notes else hint or self._names_hint(name, base, shape)
+        fix = as_path(steps, change) if (steps := _path_in_name(name, base, shape)) else None
+        own = next((section for section in SECTIONS if shape is shapes().under(section)), None)
+        other = next((section for section in SECTIONS if own and name in self._module.section(section)), None)
+        if own and other and not (notes or hint):
+            hint = f"; write '{other}: {{{name}: …}}', for it is one of the {shapes().under(other).things}"
+            fix = self._moved(own, change, other)
+        hint = "" if notes else hint or self._names_hint(name, base)
         near = () if notes or hint else base.entries
-        self._report(NOTHING_TO_OVERRIDE, change, near=near, notes=notes, owner=shape.things, hint=hint)
+        self._report(NOTHING_TO_OVERRIDE, change, fix=fix, near=near, notes=notes, owner=shape.things, hint=hint)
 
-    def _names_hint(self, name: str, base: YamlMap, shape: Shape) -> str:
-        """Return the section that has a missing name, else the existing names if none of them is similar."""
-        for section in SECTIONS if any(shape is shapes().under(section) for section in SECTIONS) else ():
-            if name in self._module.section(section):
-                return f"; write '{section}: {{{name}: …}}', for it is one of the {shapes().under(section).things}"
+    def _moved(self, section: str, change: YamlEntry, to: str) -> Fix | None:
+        """Return the fix that writes a change in another section of the override."""
+        is_only = len(self._patch.section(section)) == 1
+        return move_entry(SourceRef(self._patch), section, change.name, to, is_only=is_only)
+
+    def _names_hint(self, name: str, base: YamlMap) -> str:
+        """Return the existing names if none of them is similar to a missing one."""
         if not 0 < len(base.entries) <= MOST_LISTED or nearest(name, base.entries):
             return ""
         return f"; there {'is' if len(base.entries) == 1 else 'are'} {listed([*base.entries], 'and')}"
@@ -203,11 +224,13 @@ class _Patcher:
         code: Code,
         change: YamlEntry,
         *,
+        fix: Fix | None = None,
         near: Mapping[str, object] | tuple[()] = (),
         notes: list[Note] | None = None,
         **facts: object,
     ) -> None:
-        self._sink.report(code.at(change.key.span, near=near, notes=notes or (), name=change.name, **facts))
+        fault = code.at(change.key.span, near=near, notes=notes or (), name=change.name, **facts)
+        self._sink.report(fault.with_fix(fix))
 
 
 def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
@@ -219,11 +242,15 @@ def _items(base: YamlNode | None, shape: Shape) -> tuple[YamlNode, ...]:
 
 def _nesting_hint(name: str, base: YamlMap, shape: Shape) -> str:
     """Return how to write a path such as `elbow/limits` that was written as a name; "" for any other name."""
-    from linkforge_compile.schema.shapes import nested, split_path
+    steps = _path_in_name(name, base, shape)
+    return f"; write '{nested(steps, '…')}'" if steps else ""
 
+
+def _path_in_name(name: str, base: YamlMap, shape: Shape) -> Sequence[str]:
+    """Return the keys of a path that was written as a name; none for any other name."""
     first, *steps = split_path(name)
     is_path = steps and first in base.entries and steps[0] in shape.under(first).keys
-    return f"; write '{nested([first, *steps], '…')}'" if is_path else ""
+    return [first, *steps] if is_path else ()
 
 
 def _comparable(value: Value, field: str, shape: Shape) -> Value:

@@ -8,9 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
 from linkforge_compile.expressions.operators import (
     ARITHMETIC,
@@ -37,9 +36,10 @@ from linkforge_compile.expressions.types import (
     joined,
     kind_name,
 )
+from linkforge_compile.expressions.unknown_names import unknown_name
 from linkforge_compile.limits import Limit
 from linkforge_compile.source import Span
-from linkforge_compile.units import UNITS, WIDEST_ANGLE
+from linkforge_compile.units import WIDEST_ANGLE
 
 Trace: TypeAlias = Callable[[str, Span], Span]
 """Takes the text of a part of an expression and its span; returns a span that records where its value comes from."""
@@ -97,36 +97,6 @@ def passed_on(template: Template, scope: Scope, path: ValuePath) -> tuple[str, V
     return None
 
 
-def _amount(unit: ast.Name, expression: Expression) -> str:
-    """Return the number that is multiplied with the name of a unit, as it is written; "" for none."""
-    for node in ast.walk(expression.tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and unit in (node.left, node.right):
-            other = node.left if node.right is unit else node.right
-            if isinstance(other, ast.Constant) and isinstance(other.value, int | float):
-                return expression.written(other)
-    return ""
-
-
-def _unknown_name(name: ast.Name, expression: Expression, scope: Scope) -> Diagnostic:
-    if name.id in _PYTHON_MODULES:
-        instead = "write constants and functions without a module: pi"
-        return codes.NOT_IN_EXPRESSIONS.at(expression.span(name), use=f"contain '{name.id}'", instead=instead)
-    near = [*scope, *CONSTANTS]
-    if name.id in UNITS and (amount := _amount(name, expression)):
-        hint = f"; '{name.id}' is a unit: declare '{amount} {name.id}' in 'variables'"
-        return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint)
-    # Users often intend text on one side of a comparison.
-    comparisons = (node for node in ast.walk(expression.tree) if isinstance(node, ast.Compare))
-    is_compared = any(name is side for node in comparisons for side in (node.left, *node.comparators))
-    is_text = is_compared and nearest(name.id, near) is None
-    hint = f"; write text in quotes: '{name.id}'" if is_text else ""
-    return codes.UNKNOWN_NAME.at(expression.span(name), name=name.id, hint=hint, near=near)
-
-
-_PYTHON_MODULES = ("math", "numpy", "np")
-"""Modules that Python programs use pi and sin from."""
-
-
 class _FaultError(Exception):
     """A part of the expression has no value; the error has been reported."""
 
@@ -158,7 +128,7 @@ class _Evaluation:
         scope.budget.spend(Limit.STEPS, len(expression.text) // _CHARACTERS_A_STEP + 1, expression.place.span)
         unknown = [name for name in expression.names if name.id not in scope]
         for name in unknown:
-            self._sink.report(_unknown_name(name, expression, scope))
+            self._sink.report(unknown_name(name, expression, scope))
         if unknown:
             return FAULT
         try:

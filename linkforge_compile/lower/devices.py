@@ -26,6 +26,7 @@ from linkforge_compile.core.part import FreePart
 from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import NOT_OF_MANAGER, TAG_TWICE
+from linkforge_compile.diagnostics.entry_fixes import leave_out, leave_out_entry
 from linkforge_compile.lower.elements import EXTRA_KEYS, extras_of, lower_element, lower_fields
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_in
@@ -145,7 +146,8 @@ def _lower_controller(fields: Fields, name: str) -> Controller | None:
 def _lower_manager(fields: Fields) -> Controller | None:
     for entry in fields.node:
         if entry.name != "parameters" and fields.node.get(entry.name) is not None:
-            fields.report(NOT_OF_MANAGER, fields.ref, Key(entry.name), field=entry.name)
+            fix = leave_out(fields.ref, entry.name)
+            fields.report(NOT_OF_MANAGER, fields.ref, Key(entry.name), fixes=[fix], field=entry.name)
     values = lower_fields(Controller, fields, name=MANAGER, type=None)
     if node := fields.node.get("parameters"):
         values["parameters"] = _with_sources(values["parameters"], node, fields.trail)
@@ -248,7 +250,8 @@ def _report_repeated_tags(block: Fields, tags_of_physics: Mapping[str, YamlEntry
         if earlier is not entry:
             notes = [Note("the first is here", earlier.key.span)]
             place = SourceRef(entry.key, None, block.trail)
-            block.sink.report(TAG_TWICE.at(place, tag=tag, owner=block.owner, notes=notes))
+            fault = TAG_TWICE.at(place, tag=tag, owner=block.owner, notes=notes)
+            block.sink.report(fault.with_fix(leave_out_entry(entry.key.span, entry.value.span)))
 
 
 def _tags_of_physics(physics: YamlMap) -> Iterator[tuple[str, YamlEntry]]:

@@ -13,6 +13,7 @@ from linkforge_compile.diagnostics.codes.expressions import TRUTH_AS_TEXT
 from linkforge_compile.diagnostics.codes.model import UNKNOWN_CHOICE, WRONG_COUNT
 from linkforge_compile.diagnostics.codes.names import INVALID_NAME, NAME_TWICE
 from linkforge_compile.diagnostics.codes.syntax import XACRO_EXPRESSION
+from linkforge_compile.diagnostics.entry_fixes import leave_out_item
 from linkforge_compile.lower.numbers import (
     BARE,
     NumberType,
@@ -181,7 +182,8 @@ class Fields(ObjectContext):
                 self.report_wrong_kind(node, key, "names")
                 continue
             if name in seen:
-                self.report(NAME_TWICE, node, name=name, field=key, owner=self.title)
+                fix = leave_out_item(node.span, f"remove '{name}'")
+                self.report(NAME_TWICE, node, fixes=[fix], name=name, field=key, owner=self.title)
             seen.add(name)
             yield name, node
 
@@ -196,10 +198,10 @@ class Fields(ObjectContext):
             return None
         number = si_number(node, accepted)
         if isinstance(number, Refusal):
-            self.report(number.code, node, near=number.near, field=field, **number.facts)
+            self.report(number.code, node, near=number.near, fixes=(), field=field, **number.facts)
             return None
         if code := suspicious_unit(node, number, accepted):
-            self.report(code, node, field=field, **suspicion_facts(node, number))
+            self.report(code, node, fixes=(), field=field, **suspicion_facts(node, number))
         return number
 
     def numbers_at(self, node: YamlNode, field: str, accepted: NumberType, *counts: int) -> tuple[float, ...] | None:

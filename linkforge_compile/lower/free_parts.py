@@ -7,8 +7,10 @@ from typing import TypeAlias
 
 from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics.codes.model import ATTRIBUTE_OF_OWNER, LIST_IN_LIST
+from linkforge_compile.diagnostics.entry_fixes import add_entry, leave_out, together
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.lower.fields import Fields
-from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
+from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Quantity
 
 PlainData: TypeAlias = "None | bool | int | float | str | list[PlainData] | dict[str, PlainData]"
@@ -47,8 +49,17 @@ def free_elements(fields: Fields, key: str) -> dict[str, FreePart]:
         return {}
     for entry in section.node:
         if entry.name.startswith("_"):
-            section.report(ATTRIBUTE_OF_OWNER, entry.key, name=entry.name, owner=fields.title)
+            fix = _as_attribute(fields, section, entry)
+            section.report(ATTRIBUTE_OF_OWNER, entry.key, fixes=[fix], name=entry.name, owner=fields.title)
     return {tag: part for tag, part in _free_children(section) if not tag.startswith("_")}
+
+
+def _as_attribute(fields: Fields, section: Fields, entry: YamlEntry) -> Fix | None:
+    """Return the fix that writes an entry of free parts as an attribute of the object that has them."""
+    if not isinstance(entry.value, YamlScalar) or fields.get("extra_attributes") is not None:
+        return None
+    new = f"extra_attributes: {{{entry.name.removeprefix('_')}: {entry.value.span.text}}}"
+    return together(f"write '{new}'", add_entry(fields.ref, entry=new), leave_out(section.ref, entry.name))
 
 
 def free_texts(fields: Fields, key: str) -> dict[str, str]:

@@ -35,6 +35,7 @@ from linkforge_compile.diagnostics.codes.model import (
     SHAPE_ORDER_COUNT,
     UNKNOWN_CHOICE,
 )
+from linkforge_compile.diagnostics.entry_fixes import leave_out
 from linkforge_compile.lower.elements import extras_of, lower_element, lower_pose, outer_extras_of
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.numbers import EXTENT, EXTENT_OF_GROUND, NumberType
@@ -171,7 +172,8 @@ def _has_mass_or_density(inertial: Fields) -> bool:
     if mass is None and density is None:
         inertial.report_incomplete(NO_MASS, owner=inertial.title, choices="'mass' or 'density'")
     elif mass is not None and density is not None:
-        inertial.report(MASS_AND_DENSITY, inertial.ref, Key("density"), owner=inertial.title)
+        fixes = [leave_out(inertial.ref, key) for key in ("mass", "density")]
+        inertial.report(MASS_AND_DENSITY, inertial.ref, Key("density"), fixes=fixes, owner=inertial.title)
     else:
         return True
     return False
@@ -242,7 +244,8 @@ def _listed_shape_order(link: Fields, node: YamlList, kinds: Sequence[str]) -> S
     overrides = overrides_of([change for part in parts for change in part.span.changes], node.span)
     facts = {"owner": link.title, "expected": _count_words(kinds), "found": _count_words(listed)}
     notes = notes_of(join_links(overrides))
-    link.sink.report(SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=notes, **facts))
+    fault = SHAPE_ORDER_COUNT.at(SourceRef(node, None, link.trail), notes=notes, **facts)
+    link.sink.report(fault.replacing("", PAIRS))
     return None
 
 

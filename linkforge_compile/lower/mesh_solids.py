@@ -22,6 +22,7 @@ from linkforge_compile.diagnostics.codes.physics import (
     UNREADABLE_MESH,
     WIDE_MESH,
 )
+from linkforge_compile.diagnostics.entry_fixes import add_to_short_form
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.load.loader import with_use_trace
 from linkforge_compile.load.locations import FindMesh
@@ -158,7 +159,8 @@ class MeshReader:
             return None
         scaled = solid.scaled(mesh.scale)
         if (widest := max(scaled.size)) > _MAX_WIDTH:
-            sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}"))
+            fix = add_to_short_form(mesh.source, "file", "scale: 0.001")
+            sink.report(WIDE_MESH.at(where, path=written, size=f"{widest:.4g}").with_fix(fix))
         return scaled
 
 

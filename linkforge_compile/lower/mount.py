@@ -20,6 +20,7 @@ from linkforge_compile.diagnostics.codes.model import (
     MOUNT_SAYS_ENDS,
     TWO_MOUNTS,
 )
+from linkforge_compile.diagnostics.entry_fixes import leave_out
 from linkforge_compile.expand.instance import Instance, joint_name_of
 from linkforge_compile.lower.elements import lower_pose
 from linkforge_compile.lower.fields import Fields
@@ -69,7 +70,8 @@ def lower_module_joint(module: Instance, root: str | None, sink: Diagnostics) ->
     if entry.node.get("parent") is None:
         others = [(field, node) for field in ("joint", "origin") if (node := entry.node.get(field)) is not None]
         for field, node in others:
-            entry.report(JOINT_WITHOUT_PARENT, node, owner=entry.owner, field=field)
+            fix = leave_out(entry.ref, field)
+            entry.report(JOINT_WITHOUT_PARENT, node, fixes=[fix], owner=entry.owner, field=field)
         return ModuleJoint(joint_name_of(module.name, entry.node), None) if others else None
     default = f"{module.name}_joint"
     valid_name = _lower_name(entry, default)
@@ -159,7 +161,8 @@ def attach_mount(mount: ModuleJoint, module: Instance, root: str | None, sink: D
     if entry is None or final.joint is None:
         return final
     if (node := entry.node.get("joint")) is not None:
-        entry.report(MOUNT_AND_JOINT, node, owner=entry.owner, joint=mount.name, section="mount")
+        fix = leave_out(entry.ref, "joint")
+        entry.report(MOUNT_AND_JOINT, node, fixes=[fix], owner=entry.owner, joint=mount.name, section="mount")
     parent, origin = entry.text("parent"), lower_pose(entry)
     if parent is None or not _is_at_root(final, root, module.prefix, sink):
         return final._replace(joint=None)
@@ -178,9 +181,8 @@ def take_shared_link(robot: Robot, module: Instance, sink: Diagnostics) -> tuple
     link, parent = module.prefix + module.shared_link, entry.text("parent")
     joints = [joint for joint in robot.joints if joint.parent == link]
     if (node := entry.node.get("joint")) is not None:
-        entry.report(
-            MOUNT_AND_JOINT, node, owner=entry.owner, joint=joints[0].name.removeprefix(module.prefix), section="joints"
-        )
+        fix, name = leave_out(entry.ref, "joint"), joints[0].name.removeprefix(module.prefix)
+        entry.report(MOUNT_AND_JOINT, node, fixes=[fix], owner=entry.owner, joint=name, section="joints")
     robot.joints = tuple(joint for joint in robot.joints if joint.parent != link)
     robot.links = tuple(one for one in robot.links if one.name != link)
     return tuple(

@@ -9,6 +9,7 @@ from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.diagnostics import Code, Diagnostics, Note, notes_of
 from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WRONG_KIND
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.lower.numbers import describe_node
 from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Step, aliases_on, join_links, overrides_of, uses_in
@@ -82,16 +83,24 @@ class ObjectContext:
         return has_fault(self.node)
 
     def report(
-        self, code: Code, where: YamlNode | SourceRef, *path: str | int, near: Iterable[str] = (), **facts: object
+        self,
+        code: Code,
+        where: YamlNode | SourceRef,
+        *path: str | int,
+        near: Iterable[str] = (),
+        fixes: Iterable[Fix | None] = (),
+        **facts: object,
     ) -> None:
         """Report a fault at a node of this object, or at what a path leads to from a reference."""
         if isinstance(where, SourceRef):
-            self.sink.report(code.at(where, *path, near=near, notes=notes_of(join_links(self._aliases())), **facts))
+            fault = code.at(where, *path, near=near, notes=notes_of(join_links(self._aliases())), **facts)
+            self.sink.report(fault.with_fix(*fixes))
             return
         overrides = overrides_of(self.node.span.changes, where.span) if where is not self.node else ()
         aliases = self._aliases((None, self.node.span), (self._key_of(where, str(facts.get("field"))), where.span))
         notes = notes_of(join_links((*aliases, *overrides)))
-        self.sink.report(code.at(SourceRef(where, None, self.trail), near=near, notes=notes, **facts))
+        fault = code.at(SourceRef(where, None, self.trail), near=near, notes=notes, **facts)
+        self.sink.report(fault.with_fix(*fixes))
 
     def report_missing(self, key: str, example: str) -> None:
         """Report that a required field has no value, with an example of one."""
@@ -99,10 +108,10 @@ class ObjectContext:
         element = _REQUIRED_IN_XML.get(field, f"a '{key}'")
         self.report_incomplete(MISSING_FIELD, owner=self.owner, field=field, key=key, example=example, element=element)
 
-    def report_incomplete(self, code: Code, **facts: object) -> None:
+    def report_incomplete(self, code: Code, *, fixes: Iterable[Fix | None] = (), **facts: object) -> None:
         """Report that something is missing in this object, unless a faulty field may be what is missing."""
         if not self.is_faulty:
-            self.report(code, self.ref, near=(), **facts)
+            self.report(code, self.ref, near=(), fixes=fixes, **facts)
 
     def report_wrong_kind(self, node: YamlNode, field: str, expected: str) -> None:
         """Report a node of another kind than its field accepts, unless it is a fault that is reported already."""

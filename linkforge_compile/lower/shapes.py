@@ -27,6 +27,7 @@ from linkforge_compile.diagnostics.codes.model import (
     SEVERAL_GEOMETRIES,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.load.locations import from_base, no_mesh
 from linkforge_compile.lower.elements import extras_of, lower_element
@@ -36,6 +37,7 @@ from linkforge_compile.lower.numbers import EXTENT, FRACTION, NumberType
 from linkforge_compile.paths import path_base
 from linkforge_compile.source import SourceFile, SourceRef, Span
 from linkforge_compile.source.span import Located
+from linkforge_compile.syntax.colors import byte_as_component, color_as_list
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 
 _FACTOR = NumberType(bound=NOT_ZERO)
@@ -150,16 +152,22 @@ def lower_visual_material(visual: Fields, scope: FileScope) -> Material | None:
         return None
     if name not in scope.materials and name not in scope.unresolved_materials:
         known = {*scope.materials, *scope.unresolved_materials.names}
-        hint = "" if nearest(name, known) else "; declare it in 'materials', or write '{color: [r, g, b]}'"
-        visual.report(UNKNOWN_MATERIAL, node, near=sorted(known), name=name, hint=hint)
+        rgb = color_as_list(name)
+        in_place = f"{{color: {rgb or '[r, g, b]'}}}"
+        hint = "" if nearest(name, known) else f"; declare it in 'materials', or write '{in_place}'"
+        fix = Replacement("", in_place).within(node.span) if hint and rgb else None
+        visual.report(UNKNOWN_MATERIAL, node, near=sorted(known), fixes=[fix], name=name, hint=hint)
     return scope.materials.get(name)
 
 
 def _lower_material(fields: Fields, name: str, scope: FileScope) -> Material | None:
     texture = fields.node.get("texture")
     if fields.node.get("color") is None and texture is None:
-        hint = _color_in_comment(fields.node.key_span("color"))
-        fields.report_incomplete(EMPTY_MATERIAL, owner=fields.title, hint=hint)
+        comment = _color_in_comment(fields.node.key_span("color"))
+        rgb = color_as_list(comment.text or "") if comment else None
+        hint = f"; '{comment.text}' begins a comment: write '{rgb}'" if comment and rgb else ""
+        fix = Replacement("", rgb, is_safe=True).within(comment) if rgb else None
+        fields.report_incomplete(EMPTY_MATERIAL, fixes=[fix], owner=fields.title, hint=hint)
         return None
     color, file = _lower_color(fields), fields.text("texture")
     if color is None and file is None:
@@ -168,13 +176,12 @@ def _lower_material(fields: Fields, name: str, scope: FileScope) -> Material | N
     return lower_element(Material, fields, name=name, color=color, texture=image)
 
 
-def _color_in_comment(key: Span | None) -> str:
-    """Return a hint for a color after its key as in style sheets, which YAML reads as a comment; empty for none."""
-    rest = key.file.line(key.line)[key.end_column - 1 :] if key else ""
-    written = re.match(r":[ \t]+(#((?:[0-9a-fA-F]{2}){3,4}))(?!\S)", rest)
-    if written is None:
-        return ""
-    return f"; '{written[1]}' begins a comment: write '[{', '.join(map(_of_byte, bytes.fromhex(written[2])))}]'"
+def _color_in_comment(key: Span | None) -> Span | None:
+    """Return the place of a color after its key as in style sheets, which YAML reads as a comment; None for none."""
+    written = re.match(r":[ \t]+(#\S+)", key.file.line(key.line)[key.end_column - 1 :]) if key else None
+    return (
+        Span(*key).within(key.end_column - key.column + written.start(1), len(written[1])) if key and written else None
+    )
 
 
 def _lower_color(fields: Fields) -> Color | None:
@@ -203,7 +210,7 @@ def _report_bytes(fields: Fields, numbers: YamlList) -> bool:
     if len(large) < len(others):
         return False
     for item, byte in zip(others, large, strict=True):
-        bound, instead = ZERO_TO_ONE.words, _of_byte(byte)
+        bound, instead = ZERO_TO_ONE.words, byte_as_component(byte)
         found = f"{byte}; write '{instead}'"
         fields.report(OUT_OF_RANGE, item, field="color", bound=bound, found=found, written=str(byte), instead=instead)
     return bool(large)
@@ -215,7 +222,7 @@ def _suggested_color(numbers: YamlList) -> str | None:
     if len(rgb) < 3 or len(numbers) > 4 or max(rgb) < _LEAST_BYTE:
         return None
     opacity = _opacity(numbers.items[3]) if len(numbers) == 4 else "1"
-    return f"[{', '.join((*map(_of_byte, rgb), opacity))}]" if opacity else None
+    return f"[{', '.join((*map(byte_as_component, rgb), opacity))}]" if opacity else None
 
 
 def _opacity(node: YamlNode) -> str | None:
@@ -223,7 +230,7 @@ def _opacity(node: YamlNode) -> str | None:
     if isinstance(node, YamlScalar) and _is_component(node):
         return node.text
     byte = _byte(node)
-    return None if byte is None else _of_byte(byte)
+    return None if byte is None else byte_as_component(byte)
 
 
 def _is_component(node: YamlNode) -> bool:
@@ -235,7 +242,3 @@ def _is_component(node: YamlNode) -> bool:
 def _byte(node: YamlNode) -> int | None:
     value = node.value if isinstance(node, YamlScalar) else None
     return value if isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= _BYTE else None
-
-
-def _of_byte(byte: int) -> str:
-    return f"{byte / _BYTE:.3g}"

@@ -203,8 +203,7 @@ def _unknown_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
         hinted = f"; {hint.words}" if hint.words else ""
         facts = {"name": first.name, "owner": schema["title"], "hint": hinted}
         fault = codes.UNKNOWN_KEY.at(first.key.span, near=hint.near, notes=(), **facts)
-        for fix in hint.fixes:
-            fault = fault.with_fix(fix)
+        fault = fault.with_fix(*hint.fixes)
         if new := renamed_key(str(schema["title"]), first.name):
             fault = fault.replacing(first.name, new, is_safe=True)
         if any(mismatch.node.child(edit.text) for fix in fault.fixes for edit in fix.edits):
@@ -248,8 +247,7 @@ def _missing_keys(mismatch: SchemaMismatch) -> Iterator[Finding]:
 def _missing_version(first: Span) -> Diagnostic:
     """Return the error for a file without its version, at its first key."""
     fault, start = codes.MISSING_VERSION.at(first), Span(first.file, *first.start, *first.start)
-    newline = "\r\n" if "\r\n" in first.file.text else "\n"
-    fix = Fix("write 'linkforge: 1'", (Edit(start, f"linkforge: 1{newline}"),), is_safe=True)
+    fix = Fix("write 'linkforge: 1'", (Edit(start, f"linkforge: 1{first.file.newline}"),), is_safe=True)
     return fault.with_fix(fix) if first.column == 1 else fault
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from linkforge_compile.diagnostics.fix import Fix, Replacement
 from linkforge_compile.expressions import forgotten_expression
-from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, color_as_list, intended_word
+from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, intended_word
 from linkforge_compile.schema.json_schema import branches, mapping
 from linkforge_compile.schema.number_texts import (
     MOST_ITEMS,
@@ -32,6 +32,7 @@ from linkforge_compile.schema.shapes import (
 )
 from linkforge_compile.schema.srdf_habits import srdf_entry
 from linkforge_compile.source import Span
+from linkforge_compile.syntax.colors import color_as_list
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
 
 

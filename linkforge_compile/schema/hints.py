@@ -1,11 +1,10 @@
-"""The table of hints: keys, words and colors that users write out of habit, and what to write instead.
+"""The table of hints: keys and words that users write out of habit, and what to write instead.
 
 A new hint is a row here. Keys without a row get a did-you-mean or the list of keys, from `misplaced_keys`.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 _POSE = "write 'origin: {xyz: [x, y, z], rpy: [roll, pitch, yaw]}'"
@@ -98,18 +97,6 @@ _WORDS = {
     "z": "+z",
 }
 
-_COLORS = {
-    "black": "[0, 0, 0]",
-    "blue": "[0, 0, 1]",
-    "gray": "[0.5, 0.5, 0.5]",
-    "green": "[0, 1, 0]",
-    "grey": "[0.5, 0.5, 0.5]",
-    "orange": "[1, 0.5, 0]",
-    "red": "[1, 0, 0]",
-    "white": "[1, 1, 1]",
-    "yellow": "[1, 1, 0]",
-}
-
 NO_BALL_JOINT = "; URDF has no ball joint, so write three revolute joints with the same origin"
 
 
@@ -148,14 +135,6 @@ def other_key_hint(owner: str, key: str) -> str:
 def intended_word(word: str) -> str | None:
     """Return the word of the language for a word of another format or language."""
     return _INTENDED_WORDS.get(word.lower())
-
-
-def color_as_list(text: str) -> str | None:
-    """Return a color's name, `#ff8000` or `0xff8000` as a list: "[1, 0.502, 0]"; None for any other text."""
-    digits = re.fullmatch(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})", text)
-    if digits is None:
-        return _COLORS.get(text.lower())
-    return f"[{', '.join(f'{part / 255:.3g}' for part in bytes.fromhex(digits[1]))}]"
 
 
 # Sections, by which misplaced ones are recognized

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NAME_OUTSIDE_TEXT, PATH_OF_THIS_MACHINE, PREFIX_TWICE
 from linkforge_compile.diagnostics.codes.syntax import CURLY_QUOTES, XACRO_EXPRESSION, XACRO_IN_FREE_TEXT
-from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.diagnostics.fix import Edit, Fix, Replacement
 from linkforge_compile.schema.json_schema import LinkedSchema
 from linkforge_compile.schema.shapes import FREE, Shape, field, shapes
 from linkforge_compile.source import Span
@@ -161,7 +161,7 @@ class _Checker:
                 self._sink.report(PREFIX_TWICE.at(span, place=place.words).with_fix(_without_prefix(span)))
                 return False
             case "link" | "joint" if not place.is_free:
-                self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()"))
+                self._sink.report(NAME_OUTSIDE_TEXT.at(span, function=f"{name.id}()").with_fix(_name_alone(expression)))
                 return False
             case "path" if not (place.is_computed or place.path[-1:] == ("use",) or place.is_output):
                 self._sink.report(PATH_OF_THIS_MACHINE.at(span))
@@ -174,6 +174,17 @@ def _without_prefix(prefix: Span) -> Fix | None:
     following = prefix.file.line(prefix.line)[whole.end_column - 1 :][:1]
     is_alone = whole.text == "$(prefix)" and re.match(r"[\w$]", following)
     return Fix("leave out '$(prefix)'", (Edit(whole, ""),)) if is_alone else None
+
+
+def _name_alone(expression: Expression) -> Fix | None:
+    """Return the fix that writes the name in place of an expression such as `$(link('base'))`; None for any other."""
+    match expression.tree:
+        case ast.Call(args=[ast.Constant(value=str(name))]):
+            call = expression.span(expression.tree)
+            whole = call._replace(column=call.column - len("$("), end_column=call.end_column + len(")"))
+            is_whole = whole.text == f"$({call.text})"
+            return Replacement("$(" + (call.text or "") + ")", name).within(whole) if is_whole else None
+    return None
 
 
 def _is_in_curly_quotes(scalar: YamlScalar) -> bool:

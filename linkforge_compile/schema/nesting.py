@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.schema.shapes import nested
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar, is_null
 
 _STEP = "  "
@@ -30,7 +30,7 @@ def under_key(key: str, entries: Sequence[YamlEntry], around: YamlMap) -> Fix | 
         begin, end = (Span(place.file, *at, *at) for at in (place.start, place.end))
         return Fix(title, (Edit(begin, f"{key}: {{"), Edit(end, "}")))
     if section is None:
-        header = f"{' ' * (place.column - 1)}{key}:{_newline(place.file)}"
+        header = f"{' ' * (place.column - 1)}{key}:{place.file.newline}"
         return _indented(title, place, header, len(_STEP))
     before = written[at - 1] if at else None
     inner = next(iter(section), None) if isinstance(section, YamlMap) and not _is_flow(section) else None
@@ -76,7 +76,7 @@ def line_above(key: str, entry: YamlEntry, around: YamlEntry) -> Fix | None:
     if place is None or not _begins_line(section) or not _begins_line(place) or place.column <= section.column:
         return None
     start = Span(place.file, place.line, 1, place.line, 1)
-    return Fix(f"write '{key}:' above", (Edit(start, f"{' ' * (section.column - 1)}{key}:{_newline(place.file)}"),))
+    return Fix(f"write '{key}:' above", (Edit(start, f"{' ' * (section.column - 1)}{key}:{place.file.newline}"),))
 
 
 def _place(entries: Sequence[YamlEntry]) -> Span | None:
@@ -114,7 +114,3 @@ def _indented(title: str, place: Span, header: str, columns: int) -> Fix:
             blank = min(-columns, len(text) - len(text.lstrip(" ")))
             edits.append(Edit(Span(place.file, line, 1, line, blank + 1), above))
     return Fix(title, tuple(edits))
-
-
-def _newline(file: SourceFile) -> str:
-    return "\r\n" if "\r\n" in file.text else "\n"

@@ -50,6 +50,11 @@ class SourceFile:
         """Return a line by its number; empty beyond the end of the file."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
 
+    @property
+    def newline(self) -> str:
+        """How its lines end."""
+        return "\r\n" if "\r\n" in self.text else "\n"
+
     def between(self, begin: int, end: int) -> Span:
         """Return the span between two indexes into `counted`; an index beyond the text is its end."""
         known = self._spans.get((begin, end))

@@ -21,6 +21,11 @@ _IN_EXPRESSION = re.compile(r"'[^'\r\n]*'|\"[^\"\r\n]*\"|\$\(|[][(){}]")
 _LONGEST_EXPRESSION = 2_000
 _REST_OF_ITEM = re.compile(r"([^\s,\[\]{}#]*)[ \t]*(?=[,\]}\r\n]|$)")
 
+_REST = re.compile(r"(?:(?!\s#)[^\r\n])*")
+_REST_IN_FLOW = re.compile(r"(?:(?!\s#)[^\r\n,\[\]{}])*")
+_DOUBLE_QUOTED = re.compile(r'"((?:[^"\\\r\n]|\\[^\r\n])*)"')
+_ESCAPES = re.compile(r"\\[0abt\tnvfre\"/\\N_LPxuU]")
+
 
 def space_after_colon(span: Span, text: str) -> Diagnostic:
     """Return the error for a key and its value without a space between them, such as `mass:3`."""
@@ -91,3 +96,54 @@ def put_in_quotes(file: SourceFile, begin: int, closing: int) -> Fix | None:
         return None
     new = f"{quote}{written}{quote}"
     return Fix(f"write '{new}'", (Edit(file.between(begin, rest.end(1)), new),), is_safe=True)
+
+
+def quote_rest(file: SourceFile, begin: int, *, is_flow: bool = False, after: int | None = None) -> Fix | None:
+    """Return the fix that puts text from an index to the end of its value in quotes; None if it has both kinds.
+
+    It ends on the line of the index `after`, by default on that of its begin.
+    """
+    end = _end_of_rest(file, begin if after is None else after, is_flow=is_flow)
+    written = file.counted[begin:end]
+    if not written:
+        return None
+    quote = next((quote for quote in ("'", '"') if quote not in written), None)
+    if quote is None or (quote == '"' and "\\" in written):
+        return None
+    edits = (Edit(file.between(begin, begin), quote), Edit(file.between(end, end), quote))
+    return Fix("put it in quotes", edits)
+
+
+def brace_rest(file: SourceFile, begin: int) -> Fix | None:
+    """Return the fix that puts what follows an index on its line in braces; None if lines below belong to it."""
+    end = _end_of_rest(file, begin, is_flow=False)
+    place = file.between(begin, end)
+    below, indentation = file.line(place.line + 1), len(file.line(place.line)) - len(file.line(place.line).lstrip())
+    if begin == end or file.counted[end - 1] == ":" or below[: indentation + 1].isspace():
+        return None
+    edits = (Edit(file.between(begin, begin), "{"), Edit(file.between(end, end), "}"))
+    return Fix("put it in braces", edits)
+
+
+def single_quotes(file: SourceFile, begin: int) -> Fix | None:
+    """Return the fix that puts a text in double quotes in single ones; None if that changes more of it."""
+    found = _DOUBLE_QUOTED.match(file.counted, begin)
+    if found is None or "'" in found[1] or _ESCAPES.search(found[1]):
+        return None
+    return Fix(f"write '{found[1]}' in single quotes", (Edit(file.between(*found.span()), f"'{found[1]}'"),))
+
+
+def list_on_next_line(file: SourceFile, dash: Span) -> Fix:
+    """Return the fix that begins a list below its key; its items are aligned with those that are there."""
+    line, below = file.line(dash.line), file.line(dash.line + 1)
+    key = len(line) - len(line.lstrip())
+    depth = len(below) - len(below.lstrip())
+    column = depth if below.lstrip().startswith("- ") and depth > key else key + _STEP
+    before = Span(file, dash.line, len(line[: dash.column - 1].rstrip()) + 1, dash.line, dash.column)
+    return Fix("begin the list on a new line", (Edit(before, f"{file.newline}{' ' * column}"),))
+
+
+def _end_of_rest(file: SourceFile, begin: int, *, is_flow: bool) -> int:
+    """Return the index at which the text of a value ends that begins at another one."""
+    found = (_REST_IN_FLOW if is_flow else _REST).match(file.counted, begin)
+    return begin + len(found[0].rstrip()) if found else begin

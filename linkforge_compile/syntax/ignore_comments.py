@@ -39,5 +39,4 @@ def _comment_on(span: Span, code: str) -> Edit | None:
         return None
     written = file.line(line)
     indentation = written[: len(written) - len(written.lstrip(" "))]
-    newline = "\r\n" if "\r\n" in file.text else "\n"
-    return Edit(Span(file, line, 1, line, 1), f"{indentation}# linkforge: ignore {code}{newline}")
+    return Edit(Span(file, line, 1, line, 1), f"{indentation}# linkforge: ignore {code}{file.newline}")

@@ -116,6 +116,10 @@ def property_path(block: GazeboElement, tag: str) -> FieldPath:
     return (tag,) if is_key else ("properties", tag)
 
 
+BLOCK_THAT_KEEPS_JOINT = "gazebo: {preserveFixedJoint: true}"
+"""What a fixed joint has in a spec so that Gazebo keeps it."""
+
+
 def keeps_fixed_joint(blocks: Iterable[GazeboElement]) -> bool:
     """Whether a block about a fixed joint keeps it: Gazebo reads the attribute `value`, else the text."""
     return any(_says_yes(block.properties.get(tag, "")) for block in blocks for tag in KEEP_FIXED_JOINT)

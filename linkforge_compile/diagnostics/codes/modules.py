@@ -1,6 +1,7 @@
 """LF30xx and LF32xx to LF34xx: files, modules, parameters, `for`, `when`, `defaults`, `override` and limits."""
 
 from linkforge_compile.diagnostics.diagnostic import Code, Severity
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.source.provenance import Location
 
 _E, _W, _N = Severity.ERROR, Severity.WARNING, Severity.NOTE
@@ -106,7 +107,10 @@ CONDITION_KIND = Code("LF3201", _E, "'when' takes true or false, found {found}",
 FOR_KIND = Code("LF3202", _E, "'{name}' in 'for' takes a list or a whole number, found {found}", _DATA)
 FOR_NAME_TAKEN = Code("LF3203", _E, "'{name}' is already defined here; choose another name for 'for'")
 KEY_WITHOUT_NAME = Code(
-    "LF3204", _E, "the key must mention '{name}' of its 'for', such as '{example}', so that each copy gets its own name"
+    "LF3204",
+    _E,
+    "the key must mention '{name}' of its 'for', such as '{example}', so that each copy gets its own name",
+    fix=Replacement("{key}", "{example}", is_whole=True),
 )
 RESERVED_KEY = Code("LF3206", _E, "'{name}' is reserved for repetition and cannot be a name among the {owner}{way_out}")
 LONG_FORM = Code("LF3207", _E, "with 'for' or 'when', only 'value' is allowed here, found {found}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.gazebo import keeps_fixed_joint
+from linkforge_compile.core.models.gazebo import BLOCK_THAT_KEEPS_JOINT, keeps_fixed_joint
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.sensor import Sensor, SensorType
@@ -22,6 +22,7 @@ from linkforge_compile.diagnostics.codes.formats import (
     TWO_MATERIALS,
     UNKNOWN_VERSION,
 )
+from linkforge_compile.diagnostics.entry_fixes import add_entry, leave_out
 from linkforge_compile.formats.limits import check_attributes, check_texts, check_written_twice, undeclared_prefixes
 from linkforge_compile.formats.parts import Held, doubtful_parts_of_urdf
 from linkforge_compile.formats.urdf.view import capsules, stated_version
@@ -63,7 +64,8 @@ def check_capsules(robot: Robot) -> Iterator[Diagnostic]:
         return
     yield NEW_GEOMETRY.at(capsule.source)
     if robot.is_version_written and robot.version == "1.0":
-        yield OLD_VERSION.at(robot.source, "version", version=robot.version)
+        fault = OLD_VERSION.at(robot.source, "version", version=robot.version)
+        yield fault.with_fix(leave_out(robot.source, "version"))
 
 
 def check_version(robot: Robot) -> Iterator[Diagnostic]:
@@ -85,7 +87,8 @@ def check_turns(robot: Robot, parts: Sequence[Held]) -> Iterator[Diagnostic]:
     for pose in poses:
         if is_other_turn(pose):
             rpy = spelled(pose.rpy)
-            yield OTHER_QUATERNION.at(pose.source, "extra_attributes", Key(QUATERNION), rpy=rpy)
+            fault = OTHER_QUATERNION.at(pose.source, "extra_attributes", Key(QUATERNION), rpy=rpy)
+            yield fault.with_fix(leave_out(pose.source, "extra_attributes", QUATERNION))
 
 
 def check_materials_of_one_name(robot: Robot) -> Iterator[Diagnostic]:
@@ -113,7 +116,8 @@ def check_force_torque(sensor: Sensor, robot: Robot) -> Iterator[Diagnostic]:
     if joint is None:
         yield NO_JOINT_TO_SENSE.at(sensor.source, "link", link=sensor.link_name)
     elif joint.type == JointType.FIXED and not keeps_fixed_joint(robot.get_gazebo_elements(joint.name)):
-        yield SENSOR_ON_MERGED_JOINT.at(sensor.source, "link", joint=joint.name)
+        fault = SENSOR_ON_MERGED_JOINT.at(sensor.source, "link", joint=joint.name)
+        yield fault.with_fix(add_entry(joint.source, entry=BLOCK_THAT_KEEPS_JOINT, after="type"))
 
 
 def check_contact(sensor: Sensor) -> Iterator[Diagnostic]:
