@@ -3,7 +3,7 @@
 Comments that a page does not show say what a block of code is:
 
     <!-- write: FILE -->             the block is a file
-    <!-- append: FILE -->            the block goes to the end of a file
+    <!-- append: FILE -->            the block goes to the end of a file, after a blank line unless it is indented
     <!-- replace in FILE: A => B --> text of a file is replaced; no block follows
 
 A block of `console` has commands after `$ `, each with what it prints; a line `…` stands for any lines.
@@ -69,7 +69,7 @@ def sessions(text: str) -> list[tuple[str, str]]:
 def _write(file: Path, text: str, *, is_more: bool) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("a" if is_more else "w", encoding="utf-8") as stream:
-        stream.write(f"\n{text}" if is_more else text)
+        stream.write(f"\n{text}" if is_more and not text.startswith(" ") else text)
 
 
 def _replace(file: Path, old: str, new: str) -> None:
