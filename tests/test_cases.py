@@ -51,6 +51,7 @@ WITHOUT_A_CASE = {
     "LF8048": "migration/test_without_effect.py",
     "LF8049": "migration/test_proof.py",
     "LF8050": "migration/test_proof.py",
+    "LF8051": "migration/test_bounds.py",
     "LF7104": "cli/test_compile.py",
     "LF7201": "formats/test_user_templates.py",
     "LF7202": "formats/test_user_templates.py",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
@@ -219,6 +219,19 @@ def progress_after(doing: str, arguments: argparse.Namespace) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
+
+
+def status_at_intervals(arguments: argparse.Namespace) -> Callable[[str], None]:
+    """Return a function that prints what it is told as a status, once in each PROGRESS_INTERVAL."""
+    last = monotonic()
+
+    def tell(text: str) -> None:
+        nonlocal last
+        if monotonic() - last > PROGRESS_INTERVAL:
+            last = monotonic()
+            print_status(text, arguments)
+
+    return tell
 
 
 def progress(items: Sequence[_Item], done: str, arguments: argparse.Namespace) -> Iterator[_Item]:

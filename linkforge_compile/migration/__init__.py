@@ -2,6 +2,7 @@
 
 The stages, from top to bottom; each imports those above it:
 
+    deadline     the time that all of it may take
     symbols      names of a spec (parameters, variables, data), and the texts that xacro computes of them
     constants    the value of an expression of which all names are known
     expressions  expressions of xacro as expressions of the language

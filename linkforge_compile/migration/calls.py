@@ -80,6 +80,7 @@ class Calls(MacroCalls):
         self._plan = plan
         self.defined: dict[XmlElement, Macro] = {}
         self.called: list[Called] = []
+        self._first: dict[XmlElement, Called] = {}
         self.modules: dict[XmlElement, Module] = {}
         self.kept: dict[XmlElement, str] = {}
         """Why macros stay macros of their xacro, by their bodies."""
@@ -99,6 +100,7 @@ class Calls(MacroCalls):
             raise UndefinedError(f"a call of the macro '{name}', which is not defined,")
         called = Called(macro, element, context)
         self.called.append(called)
+        self._first.setdefault(macro.body, called)
         # Of a macro that is called once, properties are as good as those around it.
         is_single = not context.is_inside and self._plan.single.issuperset(
             (macro.body, *(one.macro.body for one in context.calls))
@@ -118,7 +120,7 @@ class Calls(MacroCalls):
             called.content = [kept]
             return called.content
         if macro.body not in self._plan.modules or context.is_inside:
-            comment = macro.comment if [one.macro.body for one in self.called].count(macro.body) == 1 else ""
+            comment = macro.comment if self._first[macro.body] is called else ""
             return [*([Comment(comment, follows=False)] if comment else []), *called.content]
         return self._used(called, macros, evaluator)
 

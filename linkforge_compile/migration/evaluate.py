@@ -14,6 +14,7 @@ from pathlib import Path
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.migration.computed import Names
 from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.expressions import translate_text
 from linkforge_compile.migration.scopes import Block, Macro, Property, Table, Value
 from linkforge_compile.migration.sources import Sources
@@ -110,6 +111,7 @@ class Evaluator(ABC):
     given: Mapping[str, str]
     pinned: frozenset[str]
     calls: MacroCalls
+    deadline: Deadline = field(default_factory=Deadline)
     robot: FileDraft = field(default_factory=lambda: FileDraft("robot"))
     arguments: dict[str, Symbol] = field(default_factory=dict)
     decided: int = 0

@@ -96,6 +96,8 @@ class Expander(Evaluator):
         self._walked += 1
         if self._walked > _MOST_ELEMENTS:
             raise CannotTranslateError(f"more than {_MOST_ELEMENTS:,} elements")
+        if self._walked % 100 == 0:
+            self.deadline.check()
         match element.tag:
             case "xacro:include":
                 return self._include(element, context)

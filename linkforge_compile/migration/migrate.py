@@ -15,6 +15,7 @@ from linkforge_compile.migration.blocks import form_of
 from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import Arguments, combinations_of, domain_of
 from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
 from linkforge_compile.migration.files import FileMaker
@@ -54,9 +55,8 @@ class Migration:
     expander: Expander
     calls: Calls
     specs: dict[FileDraft, Spec]
-    pinned: frozenset[str]
-    inline: dict[XmlElement, str]
-    """Why a macro is no module, by its body."""
+    constraints: Constraints
+    """Those with which another attempt has the same result."""
 
     @property
     def modules(self) -> dict[XmlElement, FileDraft]:
@@ -102,67 +102,90 @@ class Options(TypedDict):
     folder: Path
 
 
-@dataclass
-class Settled:
-    """What is known before: why macros are no modules, by their bodies, and arguments that have one value."""
+@dataclass(frozen=True)
+class Constraints:
+    """What an attempt starts with: macros that are no modules, and arguments that have one value.
 
-    inline: dict[XmlElement, str] = field(default_factory=dict)
+    `plan` is that of an attempt with the same arguments, so that this one need not find it again.
+    """
+
+    inline: Mapping[XmlElement, str] = field(default_factory=dict)
+    """Why macros are no modules, by their bodies."""
     pinned: frozenset[str] = frozenset()
     keeps_raw: bool = False
     """Whether parts that are valid for some outcomes of conditions only are kept for others, as raw XML."""
     computed: frozenset[Place] = frozenset()
     """The links whose inertia is computed of their shapes."""
+    plan: Plan | None = None
 
 
-def migrate(
-    given: Mapping[str, str],
-    sources: Sources,
-    settled: Settled,
-    head: Callable[[], str] = str,
-) -> Migration:
-    """Return the specs that a xacro becomes; `head` gives what begins that of the robot.
+class Translator:
+    """Translates one xacro, in several attempts; `head` gives what begins the spec of the robot."""
 
-    Raises:
-        CannotTranslateError: if it cannot be translated at all.
+    def __init__(
+        self, given: Mapping[str, str], sources: Sources, deadline: Deadline, head: Callable[[], str] = str
+    ) -> None:
+        self._given, self._sources, self._deadline, self._head = given, sources, deadline, head
+        self._called: dict[frozenset[str], list[Called]] = {}
+        """The calls of macros where none is a module, by the arguments that have one value."""
 
-    """
-    inline, pinned = dict(settled.inline), settled.pinned
-    for _ in range(_MOST_ROUNDS):
-        try:
-            return _migrated(sources, given, replace(settled, inline=inline, pinned=pinned), head)
-        except NotConstantError as error:
-            names = frozenset(symbol.wish for symbol in sources_of(error.symbols) if symbol.is_argument) - pinned
-            if not names:
-                raise CannotTranslateError(f"a value that depends on {error}") from None
-            pinned |= names
-    raise CannotTranslateError("no form of it in the language was found")
+    def migrate(self, constraints: Constraints) -> Migration:
+        """Return the specs that the xacro becomes.
 
+        Raises:
+            CannotTranslateError: if it cannot be translated at all.
+            OutOfTimeError: if the time is over.
 
-def _migrated(sources: Sources, given: Mapping[str, str], settled: Settled, head: Callable[[], str]) -> Migration:
-    inline, pinned = settled.inline, settled.pinned
-    first = Calls(Plan())
-    Expander(sources, given, pinned, first).expand()
-    plan = _plan(first.called, inline)
-    while True:
-        calls = Calls(plan)
-        expander = Expander(sources, given, pinned, calls)
-        try:
-            robot = expander.expand()
-            return _written(robot, expander, calls, settled, head)
-        except NoModuleError as error:
-            body = error.body
-            called = [one for one in first.called if one.macro.body is body]
-            known = plan.fixed.get(body, frozenset())
-            if same := _constant(error.fixed - known, called):
-                plan.fixed[body] = known | same
-            elif not error.outer <= plan.outer[body]:
-                plan.outer[body] |= error.outer
-                _settle(plan, body, called, inline)
-            elif same := _constant(_parameters(called) - known, called):
-                plan.fixed[body] = known | same
-            else:
-                inline[body] = error.reason
-                del plan.modules[body]
+        """
+        for _ in range(_MOST_ROUNDS):
+            inline = dict(constraints.inline)
+            try:
+                return self._attempt(constraints, inline)
+            except NotConstantError as error:
+                names = {symbol.wish for symbol in sources_of(error.symbols) if symbol.is_argument}
+                if names <= constraints.pinned:
+                    raise CannotTranslateError(f"a value that depends on {error}") from None
+                constraints = replace(constraints, inline=inline, pinned=constraints.pinned | names)
+        raise CannotTranslateError("it has no equivalent in the language")
+
+    def _attempt(self, constraints: Constraints, inline: dict[XmlElement, str]) -> Migration:
+        """Return the specs, and add to `inline` the macros that cannot be modules."""
+        called_by_body = self._called_by_body(constraints.pinned)
+        plan = _plan(called_by_body, inline, constraints.plan)
+        while True:
+            calls = Calls(plan)
+            expander = self._expander(constraints.pinned, calls)
+            try:
+                robot = expander.expand()
+                found = replace(constraints, inline=inline, plan=plan)
+                return _write_specs(robot, expander, calls, found, self._head)
+            except NoModuleError as error:
+                body = error.body
+                called = called_by_body.get(body, [])
+                known = plan.fixed.get(body, frozenset())
+                if same := _constant(error.fixed - known, called):
+                    plan.fixed[body] = known | same
+                elif not error.outer <= plan.outer[body]:
+                    plan.outer[body] |= error.outer
+                    _settle(plan, body, called, inline)
+                elif same := _constant(_parameters(called) - known, called):
+                    plan.fixed[body] = known | same
+                else:
+                    inline[body] = error.reason
+                    del plan.modules[body]
+
+    def _called_by_body(self, pinned: frozenset[str]) -> dict[XmlElement, list[Called]]:
+        if pinned not in self._called:
+            calls = Calls(Plan())
+            self._expander(pinned, calls).expand()
+            self._called[pinned] = calls.called
+        by_body: dict[XmlElement, list[Called]] = {}
+        for one in self._called[pinned]:
+            by_body.setdefault(one.macro.body, []).append(one)
+        return by_body
+
+    def _expander(self, pinned: frozenset[str], calls: Calls) -> Expander:
+        return Expander(self._sources, self._given, pinned, calls, deadline=self._deadline)
 
 
 def _constant(names: Iterable[str], calls: list[Called]) -> frozenset[str]:
@@ -188,17 +211,17 @@ def _body_of(module: FileDraft) -> XmlElement:
     return module.root
 
 
-def _plan(called: list[Called], inline: dict[XmlElement, str]) -> Plan:
+def _plan(by_body: dict[XmlElement, list[Called]], inline: dict[XmlElement, str], known: Plan | None) -> Plan:
     """Return which macros become modules: those of which each call is one tree of links."""
-    by_body: dict[XmlElement, list[Called]] = {}
-    for one in called:
-        by_body.setdefault(one.macro.body, []).append(one)
     plan = Plan(single=frozenset(body for body, calls in by_body.items() if len(calls) == 1))
     for body, calls in by_body.items():
         if body in inline:
             continue
         plan.outer[body] = frozenset().union(*(outer_parts(one.content) for one in calls))
         plan.outer[body] |= repeated_parts([one.content for one in calls])
+        if known:
+            plan.outer[body] |= known.outer.get(body, frozenset())
+            plan.fixed[body] = known.fixed.get(body, frozenset())
         plan.modules[body] = _kinds(calls)
         blocks = {name: [one.blocks.get(name, []) for one in calls] for name in calls[0].blocks}
         forms = {name: form_of(found, is_list=name.startswith("**")) for name, found in blocks.items()}
@@ -244,8 +267,8 @@ def _kind(node: ast.expr) -> str:
     return MAP if isinstance(value, dict) else kind_of(constant(value))
 
 
-def _written(
-    robot: FileDraft, expander: Expander, calls: Calls, settled: Settled, head: Callable[[], str]
+def _write_specs(
+    robot: FileDraft, expander: Expander, calls: Calls, constraints: Constraints, head: Callable[[], str]
 ) -> Migration:
     robot.stem = stem_of(expander.sources.main)
     specs: dict[FileDraft, Spec] = {}
@@ -255,8 +278,8 @@ def _written(
         file.stem = next(stem for ending in endings if (stem := f"{file.name}{ending}") not in stems)
         stems.add(file.stem)
     options: Options = {
-        "keeps_raw": settled.keeps_raw,
-        "computed": settled.computed,
+        "keeps_raw": constraints.keeps_raw,
+        "computed": constraints.computed,
         "packages": expander.sources.packages,
         "folder": expander.sources.spec_folder,
     }
@@ -272,7 +295,7 @@ def _written(
     above = _as_comment("\n".join(_comments_above(robot.root)))
     specs[robot] = FileMaker(robot, specs, {}, **options).spec(above + head())
     files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
-    return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, settled.pinned, settled.inline)
+    return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, constraints)
 
 
 def _comments_above(root: XmlElement | None) -> list[str]:
@@ -291,9 +314,9 @@ def _inner_first(expander: Expander) -> list[FileDraft]:
 
     def add(file: FileDraft) -> None:
         for use in file.uses():
-            add(use.module)
-        if file not in made and file.is_module:
-            made.append(file)
+            if use.module not in made:
+                add(use.module)
+                made.append(use.module)
 
     add(expander.robot)
     return made

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,6 +15,7 @@ from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
 from linkforge_compile.importing import as_read_back, import_urdf
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
+from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.without_effect import leave_out
 from linkforge_compile.pipeline import compile_path, compile_source
 from linkforge_compile.roots import identity
@@ -30,17 +31,22 @@ class Comparison(NamedTuple):
     """One combination: what differs, and why there is nothing to compare, if so.
 
     `refused` is what is wrong with the xacro for these arguments: then nothing is proved. `fault` is what is wrong with
-    the spec.
+    the spec. `is_late` if the time was over before.
     """
 
     arguments: Arguments
     differences: tuple[str, ...] = ()
     refused: str | None = None
     fault: str | None = None
+    is_late: bool = False
 
     @property
     def is_equal(self) -> bool:
-        return not (self.differences or self.fault or self.refused)
+        return not (self.is_failure or self.refused or self.is_late)
+
+    @property
+    def is_failure(self) -> bool:
+        return bool(self.differences or self.fault)
 
 
 class Specs(NamedTuple):
@@ -57,15 +63,19 @@ class Specs(NamedTuple):
 class Prover:
     """Proves the specs of one xacro; the robots that xacro expands are kept for the next attempt."""
 
-    def __init__(self, main: Path, loader: Loader) -> None:
+    def __init__(self, main: Path, loader: Loader, deadline: Deadline | None = None) -> None:
         """`loader` has the packages, and whether the user allows to read anything."""
-        self._main = main
+        self._main, self._deadline = main, deadline or Deadline()
         self._settings = Settings((), {**loader.packages}, allow_outside=loader.roots.is_anywhere)
         self._expanded: dict[tuple[tuple[str, str], ...], Robot | str] = {}
 
-    def compare(self, specs: Specs, combinations: Iterable[Arguments]) -> list[Comparison]:
+    def compare(self, specs: Specs, combinations: Sequence[Arguments]) -> list[Comparison]:
         """Return the comparison of each combination."""
-        compared = (self._compared(specs, arguments) for arguments in combinations)
+        compared: list[Comparison] = []
+        for number, arguments in enumerate(combinations):
+            self._deadline.tell(f"compared {number} of {len(combinations)} combinations of arguments")
+            late = Comparison(arguments, is_late=True)
+            compared.append(late if self._deadline.is_over else self._compared(specs, arguments))
         return [one for one in compared if not (one.refused and OTHER_WORD in one.arguments.values())]
 
     def compiled(self, specs: Specs, combinations: Iterable[Arguments]) -> Iterator[Robot]:

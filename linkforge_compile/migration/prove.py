@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import re
 import shlex
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
-from linkforge_compile.diagnostics.codes.importing import PARAMETER_GONE, SPEC_NEEDS_OUTSIDE, XACRO_KEPT
+from linkforge_compile.diagnostics.codes.importing import (
+    MIGRATION_TOO_LONG,
+    PARAMETER_GONE,
+    SPEC_NEEDS_OUTSIDE,
+    XACRO_KEPT,
+)
 from linkforge_compile.listing import Listing
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import Arguments
+from linkforge_compile.migration.deadline import Deadline, OutOfTimeError
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
-from linkforge_compile.migration.migrate import Migration, Settled, migrate, stem_of
+from linkforge_compile.migration.migrate import Constraints, Migration, Translator, stem_of
 from linkforge_compile.migration.proof import Comparison, Prover, Specs
 from linkforge_compile.migration.report import Figures, faults_of, figures_of, notes_of
 from linkforge_compile.migration.sources import Sources
@@ -47,6 +56,17 @@ class Proved:
         return bool(equal) and not has_errors and all(one.is_equal or one.refused for one in self.comparisons)
 
 
+class _Attempt(NamedTuple):
+    """Specs, and their comparison with xacro's robot."""
+
+    migration: Migration
+    comparisons: Sequence[Comparison]
+
+    @property
+    def failures(self) -> int:
+        return sum(not (one.is_equal or one.refused) for one in self.comparisons)
+
+
 @dataclass
 class Migrator:
     """Migrates one xacro into a folder, in which relative paths of the specs start."""
@@ -56,96 +76,115 @@ class Migrator:
     folder: Path
     loader: Loader
     sink: Diagnostics
+    deadline: Deadline = field(default_factory=Deadline)
 
     def __post_init__(self) -> None:
         self.sources = Sources(self.main, self.loader, self.sink, self.folder)
+        self._translator = Translator(self.given, self.sources, self.deadline, self._head)
+        self._prover = Prover(self.main, self.loader, self.deadline)
 
     def run(self) -> Proved:
         """Return the specs with the fewest macros in place that are proved."""
-        prover = Prover(self.main, self.loader)
-        settled = Settled()
-        migration = self._migrated(settled)
-        if isinstance(migration, CannotTranslateError):
-            return self._kept(migration, prover)
-        comparisons = self.prove(migration, prover)
-        if _failures(comparisons):
-            other = self._migrated(Settled(keeps_raw=True))
-            if isinstance(other, Migration):
-                found = self.prove(other, prover)
-                if _failures(found) < _failures(comparisons):
-                    settled, migration, comparisons = Settled(keeps_raw=True), other, found
-        for body in _suspects(migration, comparisons):
-            if _failures(comparisons) == 0:
-                break
-            reason = f"as a module it is another robot, {_first_failure(comparisons)}"
-            tried = replace(settled, inline={**settled.inline, body: reason})
-            other = self._migrated(tried)
-            if isinstance(other, CannotTranslateError):
-                continue
-            # Most attempts mend nothing, which one of the failures tells.
-            failed = next(one.arguments for one in comparisons if not (one.is_equal or one.refused))
-            if _failures(self.prove(other, prover, [failed])):
-                continue
-            found = self.prove(other, prover)
-            if _failures(found) < _failures(comparisons):
-                settled, migration, comparisons = tried, other, found
-        if _failures(comparisons) and migration.calls.kept:
+        attempt = self._attempt(Constraints())
+        if isinstance(attempt, CannotTranslateError):
+            return self._kept(attempt)
+        if isinstance(attempt, OutOfTimeError):
+            return self._without_result()
+        attempt = self._with_computed_inertia(self._mended(attempt))
+        migration = attempt.migration
+        if attempt.failures and migration.calls.kept:
             reason = next(iter(migration.calls.kept.values()))
-            return self._kept(CannotTranslateError(reason), prover)
-        migration, comparisons = self._with_computed_inertia(migration, comparisons, settled, prover)
-        diagnostics = [*notes_of(migration), *faults_of(comparisons), *self._outside(migration, prover)]
+            return self._kept(CannotTranslateError(reason))
+        diagnostics = [*notes_of(migration), *self._faults_of(attempt.comparisons), *self._outside(migration)]
+        return self._proved(attempt, diagnostics)
+
+    def _mended(self, attempt: _Attempt) -> _Attempt:
+        """Return an attempt with fewer failures, if there is one with raw XML or with macros in place."""
+        if attempt.failures:
+            attempt = self._better(attempt, replace(attempt.migration.constraints, keeps_raw=True))
+        for body in _suspects(attempt):
+            if not attempt.failures or self.deadline.is_over:
+                break
+            reason = f"as a module it is another robot, {_first_failure(attempt.comparisons)}"
+            known = attempt.migration.constraints
+            attempt = self._better(attempt, replace(known, inline={**known.inline, body: reason}))
+        return attempt
+
+    def _better(self, attempt: _Attempt, constraints: Constraints) -> _Attempt:
+        """Return another attempt if it has fewer failures, else the one."""
+        # Most attempts mend nothing, which the failures tell.
+        failed = [one.arguments for one in attempt.comparisons if one.is_failure]
+        other = self._attempt(constraints, failed[:1])
+        if not isinstance(other, _Attempt) or other.failures:
+            return attempt
+        whole = self._compared(other.migration)
+        return whole if whole.failures < attempt.failures else attempt
+
+    def _with_computed_inertia(self, attempt: _Attempt) -> _Attempt:
+        """Return an attempt without the inertias that are those of the shapes."""
+        migration = attempt.migration
+        if attempt.failures:
+            return attempt
+        robots = self._prover.compiled(self._specs(migration), migration.combinations[:_MOST_COMPILED])
+        computed = computed_inertias(robots)
+        other = self._attempt(replace(migration.constraints, computed=computed)) if computed else attempt
+        return other if isinstance(other, _Attempt) and not other.failures else attempt
+
+    def _attempt(
+        self, constraints: Constraints, combinations: Sequence[Arguments] | None = None
+    ) -> _Attempt | CannotTranslateError | OutOfTimeError:
+        """Translate the xacro and compare the specs, for all combinations of arguments or some."""
+        try:
+            return self._compared(self._translator.migrate(constraints), combinations)
+        except (CannotTranslateError, OutOfTimeError) as error:
+            return error
+
+    def _compared(self, migration: Migration, combinations: Sequence[Arguments] | None = None) -> _Attempt:
+        chosen = migration.combinations if combinations is None else combinations
+        return _Attempt(migration, self._prover.compare(self._specs(migration), chosen))
+
+    def _proved(self, attempt: _Attempt, diagnostics: Sequence[Diagnostic]) -> Proved:
+        migration, comparisons = attempt
         figures = figures_of(migration, comparisons)
         return Proved(migration.main, migration.files, comparisons, diagnostics, figures, migration.names)
 
-    def _with_computed_inertia(
-        self, migration: Migration, comparisons: list[Comparison], settled: Settled, prover: Prover
-    ) -> tuple[Migration, list[Comparison]]:
-        """Return the specs without the inertias that are those of the shapes."""
-        if _failures(comparisons):
-            return migration, comparisons
-        computed = computed_inertias(prover.compiled(self._specs(migration), migration.combinations[:_MOST_COMPILED]))
-        if not computed:
-            return migration, comparisons
-        other = self._migrated(replace(settled, computed=computed))
-        found = self.prove(other, prover) if isinstance(other, Migration) else []
-        if isinstance(other, Migration) and not _failures(found):
-            return other, found
-        return migration, comparisons
+    def _faults_of(self, comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
+        yield from faults_of(comparisons, self.deadline.seconds)
+
+    def _without_result(self) -> Proved:
+        seconds = f"{self.deadline.seconds:g}"
+        return Proved(
+            "", {}, [], [MIGRATION_TOO_LONG.at(None, what="the translation", seconds=seconds)], names=self.given
+        )
 
     def _specs(self, migration: Migration) -> Specs:
         return Specs(self.folder / migration.main, migration.names, migration.files)
 
-    def _outside(self, migration: Migration, prover: Prover) -> Iterator[Diagnostic]:
+    def _outside(self, migration: Migration) -> Iterator[Diagnostic]:
         """Yield a warning if the specs need a file that only the migration may read."""
         specs = self._specs(migration)
-        if found := prover.outside_of(specs, self.given):
+        if found := self._prover.outside_of(specs, self.given):
             yield SPEC_NEEDS_OUTSIDE.at(found.span, spec=str(specs.path), reason=found.message)
 
     def verify(self) -> Proved:
         """Compare the specs in the folder, which may have been changed since, with the xacro."""
-        prover = Prover(self.main, self.loader)
-        migration = self._migrated(Settled())
-        if isinstance(migration, CannotTranslateError):
-            return self._kept(migration, prover)
+        try:
+            migration = self._translator.migrate(Constraints())
+        except CannotTranslateError as error:
+            return self._kept(error)
+        except OutOfTimeError:
+            return self._without_result()
         path, names = self.folder / migration.main, migration.names
         listing, _ = self._parameters_of(path)
         known = names.values() if listing is None else {one.name for one in listing.parameters}
-        missing = [name for name in names if names[name] not in known]
         specs = Specs(path, {argument: name for argument, name in names.items() if name in known})
-        comparisons = prover.compare(specs, migration.combinations)
+        missing = [one for one in names if one not in specs.names]
         gone = [PARAMETER_GONE.at(None, spec=str(path), name=names[one], argument=one) for one in missing]
-        figures = figures_of(migration, comparisons)
-        faults = [*gone, *faults_of(comparisons)]
-        return Proved(migration.main, migration.files, comparisons, faults, figures, names)
+        attempt = _Attempt(migration, self._prover.compare(specs, migration.combinations))
+        return self._proved(attempt, [*gone, *self._faults_of(attempt.comparisons)])
 
     def _parameters_of(self, path: Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
         return parameters_of(path, packages=self.loader.packages, allow_outside=self.loader.roots.is_anywhere)
-
-    def _migrated(self, settled: Settled) -> Migration | CannotTranslateError:
-        try:
-            return migrate(self.given, self.sources, settled, self._head)
-        except CannotTranslateError as error:
-            return error
 
     def _head(self) -> str:
         """Return the command that makes the specs, with the packages that it needs, as a comment."""
@@ -158,15 +197,7 @@ class Migrator:
         command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", ".")
         return f"# {on_one_line(shlex.join(command))}\n\n"
 
-    def prove(
-        self, migration: Migration, prover: Prover, combinations: Sequence[Arguments] | None = None
-    ) -> list[Comparison]:
-        """Compare the specs for all combinations or some."""
-        if combinations is None:
-            combinations = migration.combinations
-        return prover.compare(self._specs(migration), combinations)
-
-    def _kept(self, error: CannotTranslateError, prover: Prover) -> Proved:
+    def _kept(self, error: CannotTranslateError) -> Proved:
         """Return a spec that uses the xacro as it is, with the arguments as parameters."""
         report = XACRO_KEPT.at(error.where, reason=error.reason)
         faults = [one for one in self.sink.sorted() if one.severity is Severity.ERROR and error.where is None]
@@ -177,22 +208,19 @@ class Migrator:
         text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head(), robot)
         name = f"{stem_of(self.main)}.robot.yaml"
         specs = Specs(self.folder / name, parameter_names(known), {name: text})
-        comparisons = prover.compare(specs, [dict(self.given)])
-        diagnostics = [*faults, report, *faults_of(comparisons)]
+        comparisons = self._prover.compare(specs, [dict(self.given)])
+        diagnostics = [*faults, report, *self._faults_of(comparisons)]
         return Proved(name, {name: text}, comparisons, diagnostics, names=specs.names)
 
 
 def _first_failure(comparisons: Sequence[Comparison]) -> str:
-    failed = next(one for one in comparisons if not (one.is_equal or one.refused))
+    failed = next(one for one in comparisons if one.is_failure)
     return failed.fault or failed.differences[0]
 
 
-def _suspects(migration: Migration, comparisons: Sequence[Comparison]) -> list[XmlElement]:
+def _suspects(attempt: _Attempt) -> list[XmlElement]:
     """Return the modules, those first whose files or names the failures are about."""
-    texts = "\n".join(text for one in comparisons for text in (one.fault or "", *one.differences))
-    files = migration.modules
-    return sorted(files, key=lambda body: files[body].stem not in texts)
-
-
-def _failures(comparisons: Sequence[Comparison]) -> int:
-    return sum(not (one.is_equal or one.refused) for one in comparisons)
+    texts = (text for one in attempt.comparisons for text in (one.fault or "", *one.differences))
+    words = Counter(word for text in texts for word in re.findall(r"\w+", text))
+    files = attempt.migration.modules
+    return sorted(files, key=lambda body: -words[files[body].stem])

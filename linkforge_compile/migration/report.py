@@ -13,6 +13,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     MACRO_IN_PLACE,
     MACRO_KEPT,
     MIGRATION_DIFFERS,
+    MIGRATION_TOO_LONG,
     MIGRATION_UNPROVED,
 )
 from linkforge_compile.migration.attachment import parts_of
@@ -53,6 +54,8 @@ class Figures(NamedTuple):
     combinations: int
     equal: int
     unproved: int
+    late: int
+    """The combinations that were not compared, because the time was over."""
 
     def as_json(self) -> dict[str, Any]:
         return self._asdict()
@@ -90,13 +93,16 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
         combinations=len(comparisons),
         equal=sum(one.is_equal for one in comparisons),
         unproved=sum(one.refused is not None for one in comparisons),
+        late=sum(one.is_late for one in comparisons),
     )
 
 
 def lines_of(figures: Figures) -> Iterator[str]:
     """Yield the lines of a report."""
     proved = f"{figures.equal} of {_counted(figures.combinations, 'combination')} of its arguments are the same robot"
-    yield f"proof       {proved}" + (f", {figures.unproved} cannot be compared" if figures.unproved else "")
+    unproved = f", {figures.unproved} cannot be compared" if figures.unproved else ""
+    late = f", {figures.late} were not compared in the time" if figures.late else ""
+    yield f"proof       {proved}{unproved}{late}"
     if figures.varied or figures.settled:
         one_value = f"; with one value: {', '.join(figures.settled)}" if figures.settled else ""
         yield f"arguments   varied: {', '.join(figures.varied) or 'none'}{one_value}"
@@ -122,7 +128,7 @@ def _counted(number: int, noun: str) -> str:
 def notes_of(migration: Migration) -> Iterator[Diagnostic]:
     """Yield why macros are no modules, and which arguments have one value."""
     called = {one.macro.body: one.macro for one in migration.calls.called}
-    for body, reason in migration.inline.items():
+    for body, reason in migration.constraints.inline.items():
         if body in called and body not in migration.calls.kept:
             yield MACRO_IN_PLACE.at(body.span, name=called[body].name, reason=reason)
     for body, reason in migration.calls.kept.items():
@@ -130,13 +136,17 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
     left_out = (one.origin for spec in migration.specs.values() for one in spec.left_out if one.origin)
     for element in dict.fromkeys(left_out):
         yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag)
-    for name in sorted(migration.pinned):
+    for name in sorted(migration.constraints.pinned):
         symbol = migration.expander.arguments[name]
         yield ARGUMENT_PINNED.at(symbol.where, name=name, value=str(symbol.constant))
 
 
-def faults_of(comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
-    """Yield what differs, and what was not compared."""
+def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Diagnostic]:
+    """Yield what differs, and what was not compared, some of it as that would take longer than a time."""
+    late = [one.arguments for one in comparisons if one.is_late]
+    if late:
+        what = f"the comparison of {_counted(len(late), 'combination')}, the first with {_words(late[0])},"
+        yield MIGRATION_TOO_LONG.at(None, what=what, seconds=f"{seconds:g}")
     for one in comparisons:
         arguments = _words(one.arguments)
         if one.refused is not None:

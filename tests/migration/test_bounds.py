@@ -8,12 +8,16 @@ from pathlib import Path
 import pytest
 
 from linkforge_compile.analysis import Settings
+from linkforge_compile.cli import reports
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.migration import expand, migrate
 from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.python_values import PythonValues, UnknownValueError
 from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import CannotTranslateError, NotConstantError
+from linkforge_compile.migration.template import FileDraft
+from tests.cli.in_process import linkforge
 from tests.migration.migrated import migrated, write
 
 HUGE = [
@@ -91,7 +95,55 @@ def test_a_macro_is_planned_again_only_if_something_about_it_is_found(tmp_path: 
 
 def _expand(main: Path) -> None:
     sources = Sources(main, Settings((), {}).loader(main), Diagnostics())
-    migrate.migrate({}, sources, migrate.Settled())
+    migrate.Translator({}, sources, Deadline()).migrate(migrate.Constraints())
+
+
+def test_another_attempt_starts_with_what_the_one_before_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    expanded: list[None] = []
+    expand_once = expand.Expander.expand
+
+    def counted(expander: expand.Expander) -> FileDraft:
+        expanded.append(None)
+        return expand_once(expander)
+
+    monkeypatch.setattr(expand.Expander, "expand", counted)
+    text = """
+    <link name="base"/>
+    <xacro:macro name="m" params="name kind">
+      <link name="${name}"/>
+      <xacro:if value="${kind == 'a'}">
+        <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+      </xacro:if>
+    </xacro:macro>
+    <xacro:m name="left" kind="a"/>
+    <xacro:m name="right" kind="a"/>"""
+    main = write(tmp_path, robot=text)
+    translator = migrate.Translator({}, Sources(main, Settings().loader(main), Diagnostics()), Deadline())
+    one = translator.migrate(migrate.Constraints())
+    assert len(expanded) > 2
+    expanded.clear()
+    other = translator.migrate(one.constraints)
+    assert len(expanded) == 1
+    assert other.files == one.files
+
+
+@pytest.mark.parametrize(("links", "late"), [(2, "the comparison of 1 combination"), (150, "the translation")])
+def test_what_takes_too_long_is_not_written(links: int, late: str, tmp_path: Path):
+    joint = '<link name="l{0}"/><joint name="j{0}" type="fixed"><parent link="base"/><child link="l{0}"/></joint>'
+    write(tmp_path, robot=f'<link name="base"/>{"".join(joint.format(one) for one in range(links))}')
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--seconds", "0", cwd=tmp_path)
+    assert ran.returncode == 1
+    assert f"error: {late}" in ran.stderr
+    assert "was not finished in 0 s; --seconds gives it more time [LF8051]" in ran.stderr
+    assert "nothing is written" in ran.stderr
+    assert not (tmp_path / "specs").exists()
+
+
+def test_progress_is_printed_when_it_takes_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reports, "PROGRESS_INTERVAL", 0)
+    write(tmp_path, robot='<xacro:arg name="a" default="true"/><link name="base"/>')
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert "compared 1 of 2 combinations of arguments\n" in ran.stderr
 
 
 def test_macros_that_call_themselves_twice_are_not_expanded_without_end(

@@ -13,7 +13,7 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     split_assignments,
 )
-from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
+from linkforge_compile.cli.reports import add_report_options, print_status, report, status_at_intervals
 
 if TYPE_CHECKING:
     import argparse
@@ -41,6 +41,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--verify", action="store_true", help="compare the specs in the folder with the xacro, and write nothing"
     )
+    parser.add_argument(
+        "--seconds",
+        metavar="N",
+        type=float,
+        default=300,
+        help="how long the translation and the comparison may take together (300)",
+    )
     parser.add_argument("--json", action="store_true", help="print the report as JSON, for tools")
     add_package_option(parser)
     add_outside_option(parser)
@@ -54,14 +61,15 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"'{xacro}' is no file")
     from linkforge_compile.analysis import Settings
     from linkforge_compile.diagnostics import Diagnostics
+    from linkforge_compile.migration.deadline import Deadline
     from linkforge_compile.migration.prove import Migrator
 
     settings = Settings((), packages_of(arguments), allow_outside=arguments.allow_outside)
     folder, sink = Path(arguments.output), Diagnostics()
     given = dict(_split(word) for word in assignments)
-    migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink)
-    with progress_after(f"reading {xacro}", arguments):
-        proved = migrator.verify() if arguments.verify else migrator.run()
+    deadline = Deadline(arguments.seconds, status_at_intervals(arguments))
+    migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink, deadline)
+    proved = migrator.verify() if arguments.verify else migrator.run()
     if unknown := next((name for name in given if name not in proved.names), None):
         from linkforge_compile.diagnostics.suggest import did_you_mean
 

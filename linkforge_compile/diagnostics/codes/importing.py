@@ -112,6 +112,7 @@ PARAMETER_GONE = Code(
     _E,
     "'{spec}' has no parameter '{name}', which is the argument '{argument}' of the xacro; write it, or migrate again",
 )
+MIGRATION_TOO_LONG = Code("LF8051", _E, "{what} was not finished in {seconds} s; --seconds gives it more time")
 
 # LF813x: which file goes where
 URDF_FOR_SRDF = Code(
