@@ -10,7 +10,12 @@ from itertools import chain, count
 from pathlib import Path
 from typing import TypedDict
 
-from linkforge_compile.migration.attachment import find_attachment, outer_parts, repeated_parts
+from linkforge_compile.migration.attachment import (
+    find_attachment,
+    outer_parts,
+    repeated_parts,
+    settings_outside,
+)
 from linkforge_compile.migration.blocks import form_of
 from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import Arguments, combinations_of, domain_of
@@ -151,12 +156,18 @@ class Translator:
     def _attempt(self, constraints: Constraints, inline: dict[XmlElement, str]) -> Migration:
         """Return the specs, and add to `inline` the macros that cannot be modules."""
         called_by_body = self._called_by_body(constraints.pinned)
-        plan = _plan(called_by_body, inline, constraints.plan)
+        plan = Plan()
+        _extend(plan, called_by_body, inline, constraints.plan)
         while True:
             calls = Calls(plan)
             expander = self._expander(constraints.pinned, calls)
             try:
                 robot = expander.expand()
+                # A module may call a macro that the robot does not, because its condition is false there.
+                if others := _by_body(one for one in calls.called if one.macro.body not in called_by_body):
+                    called_by_body |= others
+                    _extend(plan, others, inline, constraints.plan)
+                    continue
                 found = replace(constraints, inline=inline, plan=plan)
                 return _write_specs(robot, expander, calls, found, self._head)
             except NoModuleError as error:
@@ -167,6 +178,8 @@ class Translator:
                     plan.fixed[body] = known | same
                 elif not error.outer <= plan.outer[body]:
                     plan.outer[body] |= error.outer
+                    for one in called:  # what is about these
+                        plan.outer[body] |= settings_outside(split(one.content, plan.outer[body])[0])
                     _settle(plan, body, called, inline)
                 elif same := _constant(_parameters(called) - known, called):
                     plan.fixed[body] = known | same
@@ -179,13 +192,17 @@ class Translator:
             calls = Calls(Plan())
             self._expander(pinned, calls).expand()
             self._called[pinned] = calls.called
-        by_body: dict[XmlElement, list[Called]] = {}
-        for one in self._called[pinned]:
-            by_body.setdefault(one.macro.body, []).append(one)
-        return by_body
+        return _by_body(self._called[pinned])
 
     def _expander(self, pinned: frozenset[str], calls: Calls) -> Expander:
         return Expander(self._sources, self._given, pinned, calls, deadline=self._deadline)
+
+
+def _by_body(called: Iterable[Called]) -> dict[XmlElement, list[Called]]:
+    found: dict[XmlElement, list[Called]] = {}
+    for one in called:
+        found.setdefault(one.macro.body, []).append(one)
+    return found
 
 
 def _constant(names: Iterable[str], calls: list[Called]) -> frozenset[str]:
@@ -211,9 +228,11 @@ def _body_of(module: FileDraft) -> XmlElement:
     return module.root
 
 
-def _plan(by_body: dict[XmlElement, list[Called]], inline: dict[XmlElement, str], known: Plan | None) -> Plan:
-    """Return which macros become modules: those of which each call is one tree of links."""
-    plan = Plan(single=frozenset(body for body, calls in by_body.items() if len(calls) == 1))
+def _extend(
+    plan: Plan, by_body: dict[XmlElement, list[Called]], inline: dict[XmlElement, str], known: Plan | None
+) -> None:
+    """Plan which macros become modules: those of which each call is one tree of links."""
+    plan.single |= {body for body, calls in by_body.items() if len(calls) == 1}
     for body, calls in by_body.items():
         if body in inline:
             continue
@@ -227,7 +246,6 @@ def _plan(by_body: dict[XmlElement, list[Called]], inline: dict[XmlElement, str]
         forms = {name: form_of(found, is_list=name.startswith("**")) for name, found in blocks.items()}
         plan.blocks[body] = {name: form for name, form in forms.items() if form}
         _settle(plan, body, calls, inline)
-    return plan
 
 
 def _settle(plan: Plan, body: XmlElement, calls: list[Called], inline: dict[XmlElement, str]) -> None:
