@@ -1,5 +1,6 @@
 """Every fix of every bad spec: what it corrects is gone, and it brings no error; so with the comments that ignore."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -29,6 +30,10 @@ UNCOVERED = {
     **dict.fromkeys(("LF2101_unknown_key_in_what_an_expression_makes", "LF3010_module_without_a_file"), "of no file"),
     **dict.fromkeys(("LF3001_no_such_file", "LF3005_unknown_package"), "the module lacks a parameter"),
     **dict.fromkeys(("LF2201_module_without_use", "LF3001_include_of_no_file"), "the file has names of its own"),
+    **dict.fromkeys(("LF2101_habits_of_xacro", "LF2101_said_at_another_place"), "the module has no such parameter"),
+    **dict.fromkeys(
+        ("LF2201_translated_srdf", "LF3102_unclosed_expression", "LF3102_unclosed_in_braces"), "the value is wrong, too"
+    ),
     **dict.fromkeys(("LF2101_misspelt_default", "LF2201_group_without_its_keys"), "the name in it is unknown"),
     "LF6114_package_of_a_plugin": "the package is unknown",
     "LF2101_entries_outside_their_indentation": "the name of another link is misspelt",
@@ -46,6 +51,48 @@ UNCOVERED = {
     "LF1005_space_after_dash_of_a_map": "the next line was aligned without the space",
 }
 """The cases of which a fix may show another error, and why."""
+
+HINT = re.compile(
+    r"did you mean|; (?:or )?(?:delete|keep|leave|put|remove|set|swap|use|write)\b|\bwrite [`']|leave .* out\b"
+    r"|put .* in quotes"
+)
+"""The words of a message that say what to write, or what to leave out."""
+
+OF_THE_USER = "only the user knows what to write for a name in capitals, or after 'such as'"
+THERE_ALREADY = "the key is there already, and would be written twice"
+
+WITHOUT_FIX = {
+    # code, or code and case: why its hint has no fix
+    **dict.fromkeys(("LF3010", "LF3021", "LF3030", "LF3092", "LF3093", "LF3110", "LF5005", "LF7007"), OF_THE_USER),
+    **dict.fromkeys(
+        ("LF1201", "LF1202 LF1275_ignore_written_otherwise", "LF1275 LF1275_ignore_written_otherwise"), OF_THE_USER
+    ),
+    **dict.fromkeys(("LF2201 LF2201_list_of_things", "LF2201 LF2201_wrong_kind"), OF_THE_USER),
+    **dict.fromkeys(("LF2201 LF2201_thing_without_its_name", "LF2201 LF2201_line_with_a_name_missing"), OF_THE_USER),
+    **dict.fromkeys(("LF2201 LF4104_states_turned_round", "LF2101 LF2101_entry_outside_its_section"), OF_THE_USER),
+    **dict.fromkeys(("LF3107 LF3107_forgotten_for", "LF5101"), OF_THE_USER),
+    **dict.fromkeys(("LF2101 LF2201_translated_srdf", "LF2101 LF2201_group_without_its_keys"), THERE_ALREADY),
+    **dict.fromkeys(("LF2101 LF2101_unknown_key", "LF2101 LF2101_things_under_other_keys"), THERE_ALREADY),
+    "LF1019 LF1019_half_a_character": "the other half is not in the text",
+    "LF1111": "what is merged, and in what order, is not in the text",
+    "LF1114": "the values of a file of data are those of the robot",
+    "LF2101 LF2101_said_at_another_place": "'semantic' takes a map, and 'srdf' names a file",
+    "LF2101 LF2101_habits_of_xacro": "a macro needs a file of its own",
+    "LF2155 LF2155_lines_of_sections_lost": "the lines of all sections are lost, and nobody knows which comes first",
+    "LF2201 LF2201_faulty_parameters_and_repetition": "an entry of the list is no parameter",
+    "LF3003": "the robot of an SRDF is in another file",
+    "LF3040": "any other name will do, and all that refer to it have it",
+    "LF3061": "one of two different entries is right",
+    "LF3062": "the other file may have it already",
+    "LF3121": "the text is that of a parameter, which may be set elsewhere",
+    **dict.fromkeys(("LF3208", "LF3211"), "what repeats an entry may not be about all of a value"),
+    "LF4003": "all that refer to the link have its name",
+    "LF4111": "one of two values is right",
+    "LF4203 LF4203_joint_of_a_module": "the name is that of another module's joint with its own prefix",
+    "LF5323": "a joint cannot be left out without its links",
+    **dict.fromkeys(("LF7001", "LF7145", "LF7160"), "raw XML is the user's own"),
+}
+"""The hints without a fix, and why. A new hint gets a fix, or a line here."""
 
 
 def compiled(path: Path, buffers: dict[str, str] | None = None) -> list[Diagnostic]:
@@ -80,6 +127,25 @@ def test_a_fix_corrects_its_diagnostic_and_brings_no_error(path: Path):
             ]
             is_syntax = one.code.id.startswith("LF10")  # what cannot be read is not checked
             assert not errors or is_syntax or path.stem in UNCOVERED, f"{one}: {fix.title}: {errors}"
+
+
+@pytest.mark.parametrize("path", BAD, ids=lambda path: path.name)
+def test_a_hint_has_a_fix(path: Path):
+    """What the message says to write is an action of the editor."""
+    left = [one for one in compiled(path) if HINT.search(one.message) and not one.fixes]
+    assert [str(one) for one in left if {one.code.id, f"{one.code.id} {path.stem}"}.isdisjoint(WITHOUT_FIX)] == []
+
+
+def test_a_hint_without_a_fix_is_one():
+    """A line that is not needed any more goes."""
+    found: dict[str, set[bool]] = {}
+    for path in BAD:
+        for one in compiled(path):
+            if HINT.search(one.message):
+                found.setdefault(f"{one.code.id} {path.stem}", set()).add(not one.fixes)
+                found.setdefault(one.code.id, set()).add(not one.fixes)
+    assert {name for name in WITHOUT_FIX if True not in found.get(name, ())} == set()
+    assert {name for name in WITHOUT_FIX if " " not in name and found.get(name) != {True}} == set()
 
 
 @pytest.mark.parametrize("path", BAD, ids=lambda path: path.name)

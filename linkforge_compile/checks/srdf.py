@@ -27,6 +27,8 @@ from linkforge_compile.diagnostics.codes.model import (
     VIRTUAL_NAME_TAKEN,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP, UNKNOWN_JOINT, UNKNOWN_LINK
+from linkforge_compile.diagnostics.entry_fixes import leave_out_entry
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.source import Key, Span
 from linkforge_compile.units import WIDEST_ANGLE
@@ -121,6 +123,14 @@ def check_collision_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnost
                 first[ends] = pair
 
 
+def _without_pair(pair: CollisionPair) -> Fix | None:
+    """Return the fix that leaves out a pair."""
+    if pair.source is None:
+        return None
+    reason = pair.source.node.child("reason")
+    return leave_out_entry(pair.source.at("link2"), None if reason is None else reason.span)
+
+
 def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """An enabled pair makes an exception from `no_default_collision_links`, and is not disabled.
 
@@ -136,7 +146,8 @@ def check_enabled_pairs(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
             continue
         if other := disabled.get(ends):
             notes = notes_at(other.source, "disabled here")
-            yield PAIR_BOTH_WAYS.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+            fault = PAIR_BOTH_WAYS.at(pair.source, link1=pair.link1, link2=pair.link2, notes=notes)
+            yield fault.with_fix(_without_pair(pair))
         elif not ends & off:
             yield ENABLED_ANYWAY.at(pair.source, link1=pair.link1, link2=pair.link2)
 

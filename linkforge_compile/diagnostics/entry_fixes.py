@@ -9,6 +9,7 @@ from linkforge_compile.diagnostics.fix import Edit, Fix
 from linkforge_compile.source import Located, SourceFile, SourceRef, Span
 
 _BLANK = re.compile(r"(?:\s|(?<!\S)#[^\r\n]*)*")
+_COLON = re.compile(r"[ \t]*:")
 _SEPARATOR = re.compile(r"\s*, *")
 _BETWEEN = re.compile(r"\s*,?\s*")
 _DASHES = re.compile(r" *(?:- +)?")
@@ -33,9 +34,37 @@ def leave_out_item(items: Span, title: str) -> Fix | None:
     return _removal([items if _is_written(items) else None], title, is_item=True)
 
 
-def leave_out_entry(key: Span, value: Span) -> Fix | None:
-    """Return the fix that leaves out the entry of a key and its value; None if it is not written as YAML."""
+def leave_out_entry(key: Span, value: Span | None) -> Fix | None:
+    """Return the fix that leaves out the entry of a key and its value, None for one that is empty."""
+    if value is None:
+        colon = _COLON.match(key.file.counted, key.file.index_of(*key.end))
+        value = key._replace(end_column=key.end_column + len(colon[0])) if colon else key
     return _removal([_place_of(key, value)], f"leave out '{key.text}'", is_item=False)
+
+
+def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:
+    """Return the fix that writes a map as a list with an item for each entry, of which these are keys and values.
+
+    None for a map that is an item itself.
+    """
+    places = [_place_of(key, value) for key, value in entries]
+    written = [place for place in places if place]
+    if len(written) < len(places) or not written:
+        return None
+    file, first, last = written[0].file, written[0], written[-1]
+    begin, end = file.index_of(*first.start), file.index_of(*last.end)
+    before, after = file.counted[:begin].rstrip(), file.counted[end:].lstrip()
+    if before.endswith("{") and after.startswith("}"):
+        if before[:-1].rstrip().endswith(("-", ",", "[")):
+            return None
+        whole = file.between(len(before) - 1, end + len(file.counted) - end - len(after) + 1)
+        items = ", ".join(f"{{{file.counted[file.index_of(*one.start) : file.index_of(*one.end)]}}}" for one in written)
+        return Fix(title, (Edit(whole, f"[{items}]"),))
+    if any(file.line(place.line)[: place.column - 1].strip() for place in written):
+        return None
+    edits = [Edit(Span(file, *place.start, *place.start), "- ") for place in written]
+    below = (line for place in written for line in range(place.line + 1, place.end_line + 1) if file.line(line).strip())
+    return Fix(title, (*edits, *(Edit(Span(file, line, 1, line, 1), "  ") for line in below)))
 
 
 def add_entry(ref: SourceRef | None, *path: str | int, entry: str, after: str = "") -> Fix | None:

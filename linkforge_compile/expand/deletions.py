@@ -7,9 +7,11 @@ from collections.abc import Collection, Iterator
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import CHANGE_OF_DELETED, DELETED_POSE
+from linkforge_compile.diagnostics.entry_fixes import add_entry
+from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.expand.override import SECTIONS, deletes
-from linkforge_compile.source import Span
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.nodes import leaves_in
 from linkforge_compile.units import Quantity, parse_quantity
@@ -85,7 +87,14 @@ def report_lost(before: YamlMap, after: YamlMap, patch: YamlMap, sink: Diagnosti
                 sink.report(CHANGE_OF_DELETED.at(change.key.span, notes=notes, **facts))
             elif not is_to_child and (origin := joint.value.child("origin")) and _is_moved(origin):
                 notes = [Note("the pose is written here", origin.span)]
-                sink.report(DELETED_POSE.at(where, name=joint.name, notes=notes))
+                sink.report(DELETED_POSE.at(where, name=joint.name, notes=notes).with_fix(_deleting(patch, joint.name)))
+
+
+def _deleting(patch: YamlMap, joint: str) -> Fix | None:
+    """Return the fix that deletes a joint in an override that deletes its link."""
+    entry, ref = f"{joint}: null", SourceRef(patch)
+    section = add_entry(ref, "joints", entry=entry)
+    return section or add_entry(ref, entry=f"joints: {{{entry}}}", after="links")
 
 
 def _is_moved(origin: YamlNode) -> bool:

@@ -27,6 +27,7 @@ from linkforge_compile.diagnostics.codes.model import (
     SEVERAL_GEOMETRIES,
 )
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_MATERIAL
+from linkforge_compile.diagnostics.entry_fixes import as_items
 from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.load.locations import from_base, no_mesh
@@ -68,9 +69,10 @@ def lower_geometry(shape: Fields, scope: FileScope, extent: NumberType = EXTENT)
         return None
     if len(keys) > 1:
         first, second, *_ = keys
-        shape.report(
-            SEVERAL_GEOMETRIES, shape.node.entries[second].value, owner=shape.title, first=first, second=second
-        )
+        entries = [(entry.key.span, entry.value.span) for entry in shape.node]
+        fix = as_items(entries, "write a list") if len(keys) == len(entries) else None
+        second_node = shape.node.entries[second].value
+        shape.report(SEVERAL_GEOMETRIES, second_node, fixes=[fix], owner=shape.title, first=first, second=second)
         return None
     key, node = keys[0], shape.node.entries[keys[0]].value
     if key == "mesh":

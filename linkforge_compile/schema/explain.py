@@ -19,6 +19,7 @@ from linkforge_compile.schema.findings import Finding, merge_missing_levels
 from linkforge_compile.schema.hint_rules import value_hint, word_hint
 from linkforge_compile.schema.hints import renamed_key
 from linkforge_compile.schema.json_schema import LinkedSchema, Schema, linked_part, mapping
+from linkforge_compile.schema.list_to_map import under_name
 from linkforge_compile.schema.misplaced_keys import find_like_space, group_unknown_keys
 from linkforge_compile.schema.number_texts import is_row
 from linkforge_compile.schema.registry import HEADER, linked, plain
@@ -303,7 +304,7 @@ def _object_without_name(tree: YamlMap, path: Path) -> Finding | None:
             name = "NAME" if first is known else first.name
             actual = f"the keys of a single one; write '{field}: {{{name}: {{{known.name}: …}}}}'"
             fault = codes.WRONG_KIND.at(known.key.span, field=f"'{field}'", expected=shape.title, found=actual)
-            return Finding(fault, path[:length])
+            return Finding(fault.with_fix(under_name(node)), path[:length])
         inner = node.child(key)
         if not isinstance(inner, YamlMap):
             return None

@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 
 from linkforge_compile.diagnostics.fix import Fix, Replacement
 from linkforge_compile.expressions import forgotten_expression
-from linkforge_compile.schema.hints import FIELDS_IN_ORDER, NO_BALL_JOINT, intended_word
+from linkforge_compile.schema.hints import FIELDS_IN_ORDER, MAY_BE_EMPTY, NO_BALL_JOINT, intended_word
 from linkforge_compile.schema.json_schema import branches, mapping
+from linkforge_compile.schema.list_to_map import as_entries, as_map
+from linkforge_compile.schema.nesting import as_path
 from linkforge_compile.schema.number_texts import (
     MOST_ITEMS,
     corrected_number,
@@ -30,7 +32,7 @@ from linkforge_compile.schema.shapes import (
     shown,
     split_path,
 )
-from linkforge_compile.schema.srdf_habits import srdf_entry
+from linkforge_compile.schema.srdf_habits import srdf_entries, srdf_entry
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.colors import color_as_list
 from linkforge_compile.syntax.nodes import YAML_1_1_BOOLEANS, YamlList, YamlMap, YamlNode, YamlScalar
@@ -47,11 +49,13 @@ class Hint(NamedTuple):
     """Whether nothing else can be intended."""
     around: Span | None = None
     """The span to write it to, if that is more than the value."""
+    other: Fix | None = None
+    """The fix of what has to change, if that is not the value alone."""
 
     def fix(self, span: Span) -> Fix | None:
         """Return the fix of the value at a span; None if there is none, or if a part of it is not shown."""
         is_whole = self.value != "" and "…" not in self.value
-        return Replacement("", self.value, self.is_safe).within(self.around or span) if is_whole else None
+        return Replacement("", self.value, self.is_safe).within(self.around or span) if is_whole else self.other
 
 
 _NO_HINT = Hint()
@@ -63,9 +67,9 @@ def _write(value: str, *, is_safe: bool = False, words: str = "") -> Hint:
     return Hint(f"; write {shown_words}", value, is_safe)
 
 
-def _change(words: str) -> Hint:
+def _change(words: str, fix: Fix | None = None) -> Hint:
     """Return the hint to write something that is more than the value."""
-    return Hint(f"; write {words}")
+    return Hint(f"; write {words}", other=fix)
 
 
 def value_hint(mismatch: SchemaMismatch) -> Hint:
@@ -194,9 +198,10 @@ def _group_state(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
 
 def _path_in_key(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
     """The value of a path written as one key, `elbow/limits/effort: 20`."""
-    keys = split_path(str(mismatch.field))
+    keys, around = split_path(str(mismatch.field)), node_at(mismatch.file, mismatch.path[:-1])
+    entry = around.entries.get(str(mismatch.field)) if isinstance(around, YamlMap) else None
     is_path = len(keys) > 1 and keys[1] in mismatch.shape.keys
-    return _change(f"'{nested(keys, node.text)}'") if is_path else _NO_HINT
+    return _change(f"'{nested(keys, node.text)}'", as_path(keys, entry) if entry else None) if is_path else _NO_HINT
 
 
 def _module_file(node: YamlScalar, mismatch: SchemaMismatch) -> Hint:
@@ -262,13 +267,22 @@ def _entries_by_name(node: YamlList, mismatch: SchemaMismatch) -> Hint:
     if not any(isinstance(branch.get("additionalProperties"), dict) for branch in branches(mismatch.schema)):
         return _NO_HINT
     if mismatch.path[:-1] == ("semantic",) and (entry := srdf_entry(mismatch.field, node)):
-        return _change(f"each entry without '-', such as '{entry}'")
+        fix = as_entries(node, srdf_entries(str(mismatch.field), node), _key_span(mismatch))
+        return _change(f"each entry without '-', such as '{entry}'", fix)
     first: YamlNode | None = next(iter(node), None)
     if isinstance(first, YamlMap):
         only_key = next(iter(first)).key if len(first) == 1 else None
         first = first.get("name") or only_key
     name = first.text if isinstance(first, YamlScalar) else "NAME"
-    return _change(f"each entry under its name, without '-': '{name}: …'")
+    is_empty_allowed = mismatch.path[-1] in MAY_BE_EMPTY
+    fix = as_map(node, _key_span(mismatch), is_empty_allowed=is_empty_allowed)
+    return _change(f"each entry under its name, without '-': '{name}: …'", fix)
+
+
+def _key_span(mismatch: SchemaMismatch) -> Span | None:
+    """Return the place of the key of the value; None for an item of a list."""
+    around = node_at(mismatch.file, mismatch.path[:-1])
+    return around.key_span(str(mismatch.field)) if isinstance(around, YamlMap) else None
 
 
 # Rules for maps
@@ -280,7 +294,10 @@ def _interfaces(node: YamlMap, mismatch: SchemaMismatch) -> Hint:
     first = next(iter(node), None)
     if first is None or around not in ("command_interfaces", "state_interfaces"):
         return _NO_HINT
-    return _change(f"a map instead of the list: '{around}: {{{first.name}: …}}'")
+    items, above = (node_at(mismatch.file, mismatch.path[:-count]) for count in (1, 2))
+    key = above.key_span(str(around)) if isinstance(above, YamlMap) else None
+    fix = as_map(items, key, is_empty_allowed=True) if isinstance(items, YamlList) else None
+    return _change(f"a map instead of the list: '{around}: {{{first.name}: …}}'", fix)
 
 
 def _axes(node: YamlMap, mismatch: SchemaMismatch) -> Hint:

@@ -67,11 +67,30 @@ _NUMBERS_OF_LISTS = (
     ("a color", "r g b a", "write 'color: [r, g, b, a]', each from 0 to 1"),
 )
 
+_LIKELY_KEYS = (
+    # objects by title ("" is any), keys of other formats, our key, if it takes the value as it is
+    ("", "if xacro:if", "when"),
+    ("", "args xacro:arg", "parameters"),
+    ("", "properties xacro:property", "variables"),
+    ("a module", "parameters args", "with"),
+    ("an inertial", "com center_of_mass", "origin"),
+    ("a gazebo block", "mu", "mu1"),
+)
+
+LIST_OF_NUMBERS = {
+    # object by title and one of its keys: our key for the numbers, "" for the object itself, and all keys in order
+    **{("an origin", name): ("xyz", ("x", "y", "z")) for name in ("x", "y", "z")},
+    **{("an origin", name): ("rpy", ("roll", "pitch", "yaw")) for name in ("roll", "pitch", "yaw")},
+    **{("a box", name): ("", ("x", "y", "z")) for name in ("x", "y", "z")},
+    **{("a color", name): ("", ("r", "g", "b", "a")) for name in ("r", "g", "b", "a")},
+}
+"""The keys that other formats have for the numbers of a list."""
+
 _ANY_OTHER_KEY = (
-    # objects by title, where to write a key that is like none of theirs
-    ("a module", "set a parameter with 'with: {{{0}: …}}'"),
-    ("the long form", "only 'for', 'when' and 'value' are allowed here"),
-    ("a gazebo block, a robot's gazebo block", "write other tags under 'properties'"),
+    # objects by title, where to write a key that is like none of theirs, the key to write it under
+    ("a module", "set a parameter with 'with: {{{0}: …}}'", "with"),
+    ("the long form", "only 'for', 'when' and 'value' are allowed here", ""),
+    ("a gazebo block, a robot's gazebo block", "write other tags under 'properties'", "properties"),
 )
 
 FIELDS_IN_ORDER = {
@@ -106,8 +125,9 @@ def _by_key(rows: Iterable[tuple[str, str, str]]) -> dict[tuple[str, str], str]:
 
 _KEY_HINTS = _by_key(_KEYS)
 _NEW_KEYS = _by_key(_RENAMED_KEYS)
+_OUR_KEYS = _by_key(_LIKELY_KEYS)
 _NUMBER_HINTS = _by_key(_NUMBERS_OF_LISTS)
-_OTHER_KEY_HINTS = {owner: hint for owners, hint in _ANY_OTHER_KEY for owner in owners.split(", ")}
+_OTHER_KEY_HINTS = {owner: rest for owners, *rest in _ANY_OTHER_KEY for owner in owners.split(", ")}
 _INTENDED_WORDS = {word: intended for intended, words in _WORDS.items() for word in words.split()}
 
 
@@ -122,6 +142,11 @@ def renamed_key(owner: str, key: str) -> str:
     return _NEW_KEYS.get((owner, key), "")
 
 
+def likely_key(owner: str, key: str) -> str:
+    """Return our key for one that takes the same value in most cases, "" for any other key."""
+    return _OUR_KEYS.get((owner, key)) or _OUR_KEYS.get(("", key), "")
+
+
 def number_of_list_hint(owner: str, key: str) -> str:
     """Return the hint for a key that is one number of a list of this object, "" for any other key."""
     return _NUMBER_HINTS.get((owner, key), "")
@@ -129,7 +154,12 @@ def number_of_list_hint(owner: str, key: str) -> str:
 
 def other_key_hint(owner: str, key: str) -> str:
     """Return where an object's keys that the schema does not know belong, "" where they belong nowhere."""
-    return _OTHER_KEY_HINTS.get(owner, "").format(key)
+    return _OTHER_KEY_HINTS.get(owner, ["", ""])[0].format(key)
+
+
+def other_key_home(owner: str) -> str:
+    """Return the key under which an object's keys that the schema does not know belong, "" for none."""
+    return _OTHER_KEY_HINTS.get(owner, ["", ""])[1]
 
 
 def intended_word(word: str) -> str | None:

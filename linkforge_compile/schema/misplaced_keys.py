@@ -9,16 +9,18 @@ from typing import NamedTuple
 
 from linkforge_compile.diagnostics import MAX_KEPT
 from linkforge_compile.diagnostics.enumerations import alternatives
-from linkforge_compile.diagnostics.fix import Fix, Replacement
+from linkforge_compile.diagnostics.fix import Edit, Fix, Replacement
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.schema.hints import (
     known_key_hint,
     number_of_list_hint,
     other_key_hint,
+    other_key_home,
 )
 from linkforge_compile.schema.json_schema import Json, Schema, branches, has_names, mapping
+from linkforge_compile.schema.key_fixes import fix_of_key
 from linkforge_compile.schema.nesting import as_path, under_key, without_map
-from linkforge_compile.schema.number_texts import number_hint
+from linkforge_compile.schema.number_texts import number_hint, numbers_with_comma
 from linkforge_compile.schema.shapes import COMMON_KEYS, nested, shown, split_path
 from linkforge_compile.schema.srdf_habits import srdf_hint
 from linkforge_compile.source import Span
@@ -38,6 +40,8 @@ class KeyHint(NamedTuple):
     words: str = ""
     near: Sequence[str] = ()
     fixes: tuple[Fix | None, ...] = ()
+    around: str = ""
+    """The key under which it belongs, with all others of the same mistake."""
 
 
 def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[tuple[Sequence[YamlEntry], KeyHint]]:
@@ -53,7 +57,7 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[tuple[Sequence
     groups: dict[str, list[YamlEntry]] = {}
     for before, entry in islice(unknown, MAX_KEPT + 1):  # a hostile map has a hundred thousand
         if before and (comma := _decimal_comma_hint(before.value, entry)):
-            yield [entry], KeyHint(comma)
+            yield [entry], KeyHint(comma, fixes=_decimal_comma_fixes(before.value, entry))
         else:
             groups.setdefault(_group(entry, node, schema), []).append(entry)
     for group, entries in groups.items():
@@ -61,9 +65,13 @@ def group_unknown_keys(node: YamlMap, schema: Schema) -> Iterator[tuple[Sequence
             fix = under_key(group, entries, node) if node.get(group) is None else None
             yield entries, KeyHint(_home_hint(group, entries, node), fixes=(fix,))
             continue
-        hint, more = _hint(entries[0], node, schema), len(entries) - 1
-        if more and not number_of_list_hint(str(schema["title"]), entries[0].name):
-            hint = KeyHint(f"{hint.words} ({more} more like it here)", hint.near)
+        hint, more, owner = _hint(entries[0], node, schema), len(entries) - 1, str(schema["title"])
+        if fix := fix_of_key(owner, entries, node, known):
+            hint = hint._replace(fixes=(fix,))
+        elif more and hint.around:
+            hint = hint._replace(fixes=(under_key(hint.around, entries, node),))
+        if more and not number_of_list_hint(owner, entries[0].name):
+            hint = hint._replace(words=f"{hint.words} ({more} more like it here)")
         yield entries, hint
 
 
@@ -114,9 +122,11 @@ def _hint(entry: YamlEntry, node: YamlMap, schema: Schema) -> KeyHint:
     if nearest(name, known):
         return KeyHint("", [*known])
     if words := other_key_hint(owner, name):
-        return KeyHint(words)
+        around = other_key_home(owner)
+        return KeyHint(words, fixes=(under_key(around, [entry], node),) if around else (), around=around)
     if owner == "a parameter" and node.entries.keys().isdisjoint(known):
-        return KeyHint("write a map that is its value under 'default'")
+        fix = under_key("default", [entry], node)
+        return KeyHint("write a map that is its value under 'default'", fixes=(fix,), around="default")
     if owner == "an override" and _is_empty(entry.value):
         return KeyHint(f"write it in its section, such as 'links: {{{name}: …}}'")
     own = [key for key in known if key not in COMMON_KEYS]
@@ -188,6 +198,16 @@ def _decimal_comma_hint(before: YamlNode, entry: YamlEntry) -> str:
         return ""
     hint = number_hint(f"{before.text},{entry.name}", unit=None)
     return f"write {hint}" if hint else ""
+
+
+def _decimal_comma_fixes(before: YamlNode, entry: YamlEntry) -> tuple[Fix, ...]:
+    """Return the fixes that write both parts of a number as one, for each reading of its comma."""
+    begin, end = before.span, entry.value.span
+    readings = numbers_with_comma(f"{before.span.text},{entry.name}")
+    if begin.file is not end.file:
+        return ()
+    place = Span(begin.file, *begin.start, *max(entry.key.span.end, end.end))
+    return tuple(Fix(f"write '{number}'", (Edit(place, number),)) for number in readings)
 
 
 def _is_empty(node: YamlNode) -> bool:

@@ -50,6 +50,27 @@ def as_path(steps: Sequence[str], entry: YamlEntry) -> Fix | None:
     return Fix(f"write '{nested(steps, '…')}'", (Edit(place, new),))
 
 
+def in_place(new: Sequence[str], entries: Sequence[YamlEntry], around: YamlMap) -> Fix | None:
+    """Return the fix that writes new entries for neighbours in a map; None if they are none."""
+    written, place = list(around), _place(entries)
+    at = next(index for index, entry in enumerate(written) if entry is entries[0])
+    if place is None or written[at : at + len(entries)] != [*entries]:
+        return None
+    separator = ", " if _is_flow(around) else f"{place.file.newline}{' ' * (place.column - 1)}"
+    return Fix(f"write '{', '.join(new)}'", (Edit(place, separator.join(new)),))
+
+
+def section_of(key: str, inner: Sequence[str], entry: YamlEntry, around: YamlMap) -> Fix | None:
+    """Return the fix that writes a section with entries on lines of their own in place of an entry."""
+    place = _place([entry])
+    if place is None or around.get(key) is not None:
+        return None
+    indentation = f"{place.file.newline}{' ' * (place.column - 1 + len(_STEP))}"
+    lines = "".join(f"{indentation}{one}" for one in inner)
+    text = f"{key}:{lines}" if len(inner) > 1 and not _is_flow(around) else f"{key}: {{{', '.join(inner)}}}"
+    return Fix(f"write '{key}'", (Edit(place, text),))
+
+
 def without_map(entry: YamlEntry, around: YamlMap) -> Fix | None:
     """Return the fix that writes the entries of a map without the map; None if they are not on lines of their own."""
     place, inner = _place([entry]), entry.value

@@ -41,6 +41,12 @@ def corrected_number(text: str) -> str | None:
     return joined if joined != text and (is_number(joined) or parse_quantity(joined)) else None
 
 
+def numbers_with_comma(text: str) -> tuple[str, ...]:
+    """Return what a number with a comma may be, the decimal one first; () for any other text."""
+    corrected, thousands = corrected_number(text), _THOUSANDS_COMMA.fullmatch(text)
+    return tuple(each for each in (corrected, "".join(thousands.groups()) if thousands else None) if each)
+
+
 def number_hint(text: str, unit: str | None) -> str:
     """Return what to write for a number, both readings of `1,500`; "" for any other text.
 

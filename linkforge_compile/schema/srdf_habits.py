@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from linkforge_compile.schema.shapes import shown
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 
@@ -28,7 +30,7 @@ _ENTRIES = {
     "link_sphere_approximations": "{link}: […]",
 }
 
-_ITEMS = {"passive_joints": "name", "no_default_collision_links": "link"}
+LIST_SECTIONS = {"passive_joints": "name", "no_default_collision_links": "link"}
 """Sections that are lists, and the attribute of an element that is the item."""
 
 _IDENTIFIERS = {"name", "link", "link1", "joint_name"}
@@ -57,7 +59,7 @@ def srdf_hint(owner: str, entry: YamlEntry) -> str:
     if owner != "a semantic part" or section is None or element is None:
         return ""
     attributes = _attributes(element)
-    if attribute := _ITEMS.get(section):
+    if attribute := LIST_SECTIONS.get(section):
         return f"write '{section}: [{attributes[attribute]}]'"
     return f"write '{section}: {{{srdf_entry(section, element) or '{name}: …'.format_map(attributes)}}}'"
 
@@ -86,3 +88,80 @@ def _positions(joints: YamlNode | None) -> str:
         return ", ".join(f"{entry.name}: {shown(entry.value)}" for entry in first)
     more = ", …" if isinstance(joints, YamlList) and len(joints) > 1 else ""
     return f"{shown(name)}: {shown(value)}{more}"
+
+
+def srdf_section_of(tag: str) -> str:
+    """Return the section of `semantic` for a tag of SRDF, "" for any other key."""
+    return _SECTIONS.get(tag, "")
+
+
+def srdf_entries(section: str, value: YamlNode) -> Sequence[str]:
+    """Return the entries, or the items, of a section for an element of SRDF or a list of them.
+
+    () for elements that lack an attribute or have it twice, and for what is not written on one line.
+    """
+    elements = [*value] if isinstance(value, YamlList) else [value]
+    if not elements or not all(isinstance(each, YamlMap) and _has_plain_values(each) for each in elements):
+        return ()
+    maps = [each for each in elements if isinstance(each, YamlMap)]
+    try:
+        if attribute := LIST_SECTIONS.get(section):
+            return [_written(each, attribute) for each in maps]
+        return _merged([_steps(section, each) for each in maps])
+    except KeyError:
+        return ()
+
+
+def _has_plain_values(element: YamlMap) -> bool:
+    return all(entry.value.span.text is not None for entry in element)
+
+
+def _written(element: YamlMap, attribute: str, default: str = "") -> str:
+    """Return the value of an attribute as it is written; raise KeyError without one."""
+    value = element.get(attribute)
+    if value is None and not default:
+        raise KeyError(attribute)
+    return default if value is None else value.span.text or ""
+
+
+def _steps(section: str, element: YamlMap) -> tuple[str, str, str]:
+    """Return the two keys of an element in its section, and what is under them; the second is "" for none."""
+    match section:
+        case "group_states":
+            return _written(element, "group"), _written(element, "name"), _state(element)
+        case "disabled_collisions" | "enabled_collisions":
+            return _written(element, "link1"), _written(element, "link2"), _written(element, "reason", "User")
+        case "joint_properties":
+            property_name, value = _written(element, "property_name"), _written(element, "value")
+            return _written(element, "joint_name"), property_name, value
+        case "link_sphere_approximations":
+            spheres = _written(element, "sphere")
+            return _written(element, "link"), "", spheres if spheres.startswith("[") else f"[{spheres}]"
+    rest = [f"{entry.name}: {entry.value.span.text}" for entry in element if entry.name != "name"]
+    return _written(element, "name"), "", f"{{{', '.join(rest)}}}"
+
+
+def _state(element: YamlMap) -> str:
+    """Return the positions of a state by joint."""
+    joints = element.get("joint") or element.get("joints")
+    items = [*joints] if isinstance(joints, YamlList) else [joints]
+    if isinstance(joints, YamlMap) and joints.get("name") is None:
+        return joints.span.text or ""
+    maps = [each for each in items if isinstance(each, YamlMap)]
+    if len(maps) < len(items):
+        raise KeyError("joint")
+    positions = [f"{_written(each, 'name')}: {_written(each, 'value')}" for each in maps]
+    return f"{{{', '.join(positions)}}}"
+
+
+def _merged(steps: Sequence[tuple[str, str, str]]) -> Sequence[str]:
+    """Return one entry for each first key; raise KeyError for a key that is there twice."""
+    inner: dict[str, dict[str, str]] = {}
+    for first, second, value in steps:
+        if second in inner.setdefault(first, {}):
+            raise KeyError(second)
+        inner[first][second] = value
+    return [
+        f"{first}: {each['']}" if "" in each else f"{first}: {{{', '.join(f'{k}: {v}' for k, v in each.items())}}}"
+        for first, each in inner.items()
+    ]

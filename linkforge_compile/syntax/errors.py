@@ -22,6 +22,7 @@ from linkforge_compile.syntax.fixes import (
     put_in_quotes,
     quote_rest,
     replace_like_spaces,
+    sides_of_conflict,
     single_quotes,
     space_after_dash,
 )
@@ -85,7 +86,8 @@ def explain_parser_error(
     A file carried over from xacro has many such expressions, but the parser stops at the first.
     """
     if conflict := _MERGE_CONFLICT.search(marks.text):
-        yield codes.MERGE_CONFLICT.at(marks.part(conflict.start(), len(conflict[0])))
+        fault = codes.MERGE_CONFLICT.at(marks.part(conflict.start(), len(conflict[0])))
+        yield fault.with_fix(*sides_of_conflict(marks.file, conflict.start()))
         return
     first = _explain(error, marks, last_scalar, brackets)
     yield first

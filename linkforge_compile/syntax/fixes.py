@@ -24,6 +24,10 @@ _REST_OF_ITEM = re.compile(r"([^\s,\[\]{}#]*)[ \t]*(?=[,\]}\r\n]|$)")
 _REST = re.compile(r"(?:(?!\s#)[^\r\n])*")
 _REST_IN_FLOW = re.compile(r"(?:(?!\s#)[^\r\n,\[\]{}])*")
 _DOUBLE_QUOTED = re.compile(r'"((?:[^"\\\r\n]|\\[^\r\n])*)"')
+_CONFLICT = re.compile(
+    r"<{7} [^\n]*\n(?P<first>(?:(?![|=>]{7})[^\n]*\n)*)(?:\|{7}[^\n]*\n(?:(?!={7})[^\n]*\n)*)?={7}\r?\n"
+    r"(?P<second>(?:(?!>{7} )[^\n]*\n)*)>{7} [^\n]*\n?"
+)
 _ESCAPES = re.compile(r"\\[0abt\tnvfre\"/\\N_LPxuU]")
 
 
@@ -131,6 +135,15 @@ def single_quotes(file: SourceFile, begin: int) -> Fix | None:
     if found is None or "'" in found[1] or _ESCAPES.search(found[1]):
         return None
     return Fix(f"write '{found[1]}' in single quotes", (Edit(file.between(*found.span()), f"'{found[1]}'"),))
+
+
+def sides_of_conflict(file: SourceFile, begin: int) -> tuple[Fix, ...]:
+    """Return the fixes that keep one side of a merge conflict that begins at an index; () for one that is not whole."""
+    found = _CONFLICT.match(file.counted, begin)
+    if found is None:
+        return ()
+    whole = file.between(*found.span())
+    return tuple(Fix(f"keep the {side} side", (Edit(whole, found[side]),)) for side in ("first", "second"))
 
 
 def list_on_next_line(file: SourceFile, dash: Span) -> Fix:

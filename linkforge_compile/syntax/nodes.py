@@ -305,12 +305,15 @@ def has_expression(text: str) -> bool:
     return "$(" in text
 
 
+_OPENING = re.compile(r"(?<!\$)\$\(")
+
+
 def is_cut_expression(text: str) -> bool:
     """Whether a plain scalar holds `$(` without its `)`, because a comma or bracket of a flow list ended it."""
-    start = text.find("$(")
-    if start < 0:
+    opening = _OPENING.search(text)
+    if opening is None:
         return False
-    rest = IN_QUOTES.sub("", text[start:])
+    rest = IN_QUOTES.sub("", text[opening.start() :])
     return rest.count("(") > rest.count(")")
 
 

@@ -235,6 +235,7 @@ def test_merged_entries_keep_their_own_places():
         ("a: [$(b]\n", f"1:5 {UNCLOSED}"),
         ("a: [$(b, $(c)]\n", f"1:5 {UNCLOSED}"),
         ("a: {b: $(c, d: 1}\n", f"1:8 {UNCLOSED}"),
+        ("a: {b: $$(c, d: $(e}\n", f"1:17 {UNCLOSED}"),
         ("a: {b:, c: 1]\n", "1:13 expected ',' or '}' before this"),
     ],
 )

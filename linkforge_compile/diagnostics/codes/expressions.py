@@ -8,7 +8,9 @@ _E, _W = Severity.ERROR, Severity.WARNING
 _DATA, _VALUE = Location.DATA, Location.VALUE
 
 UNREADABLE_EXPRESSION = Code("LF3101", _E, "cannot read this expression: {problem}")
-UNCLOSED_EXPRESSION = Code("LF3102", _E, "'$(' has no closing ')'; for a literal '$(' write '$$('")
+UNCLOSED_EXPRESSION = Code(
+    "LF3102", _E, "'$(' has no closing ')'; for a literal '$(' write '$$('", fix=Replacement("$(", "$$(")
+)
 UNCLOSED_TEXT = Code("LF3103", _E, "no closing quote for the text that begins here")
 EMPTY_EXPRESSION = Code("LF3104", _E, "expected an expression between '$(' and ')', found nothing")
 EXPRESSION_TOO_LARGE = Code("LF3105", _E, "the expression {fault}; move parts of it into 'variables'")
