@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
-from typing import TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException, JsonRpcInternalError
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
 
 from linkforge_compile._version import __version__
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
@@ -38,6 +39,15 @@ def _is_fault(record: logging.LogRecord) -> bool:
     return not is_refusal and not record.getMessage().startswith("Cancel notification for unknown message")
 
 
+class _Protocol(LanguageServerProtocol):
+    """The protocol of pygls, without what is done: pygls 2.1 keeps 3 kB of every notification, so of every edit."""
+
+    def _execute_handler(self, msg_id: str | int, *arguments: Any, **options: Any) -> None:
+        super()._execute_handler(msg_id, *arguments, **options)
+        if running := self._request_futures.get(msg_id):
+            running.add_done_callback(lambda _: self._request_futures.pop(msg_id, None))
+
+
 class SpecServer(LanguageServer):
     """The language server of one editor.
 
@@ -46,7 +56,8 @@ class SpecServer(LanguageServer):
     """
 
     def __init__(self) -> None:
-        super().__init__("linkforge", __version__, text_document_sync_kind=types.TextDocumentSyncKind.Full)
+        sync = types.TextDocumentSyncKind.Full
+        super().__init__("linkforge", __version__, text_document_sync_kind=sync, protocol_cls=_Protocol)
         logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_fault)
         self.specs = Workspace()
         self.hints = HintOptions()

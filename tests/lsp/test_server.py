@@ -8,6 +8,7 @@ import pytest
 from lsprotocol import types
 
 from linkforge_compile.analysis import Analysis, Settings, analyse_path
+from linkforge_compile.lsp.features import make_server
 from linkforge_compile.lsp.server import SpecServer
 from linkforge_compile.lsp.workspace import Workspace
 from tests.lsp.editor import Editor
@@ -50,6 +51,27 @@ def test_a_file_that_is_open_by_two_paths_has_its_diagnostics_at_both(editor: Ed
     editor.close(link)
     editor.open(file, ARM.replace("child: tip", "child: top"))
     assert editor.diagnostics(file)
+
+
+def test_what_is_done_of_a_notification_is_forgotten(tmp_path: Path):
+    """pygls 2.1 keeps it, 3 kB for each edit."""
+
+    async def edit() -> int:
+        server = make_server()
+        protocol = server.protocol
+        item = types.TextDocumentItem((tmp_path / "arm.robot.yaml").as_uri(), "yaml", 1, ARM)
+        protocol.handle_message(types.InitializeRequest("first", types.InitializeParams(types.ClientCapabilities())))
+        protocol.handle_message(types.DidOpenTextDocumentNotification(types.DidOpenTextDocumentParams(item)))
+        for version in range(2, 10):
+            document = types.VersionedTextDocumentIdentifier(version, item.uri)
+            change = types.TextDocumentContentChangeWholeDocument(f"{ARM}# {version}\n")
+            params = types.DidChangeTextDocumentParams(document, [change])
+            protocol.handle_message(types.DidChangeTextDocumentNotification(params))
+        await asyncio.sleep(0.05)
+        assert server.specs.buffers
+        return len(protocol._request_futures)
+
+    assert asyncio.run(edit()) == 0
 
 
 @pytest.mark.parametrize("options", [{"packages": None}, {"packages": [1]}, {"packages": {"a": 3}}, {"inlayHints": 1}])

@@ -33,7 +33,8 @@ from tests.schema.test_nesting import fixed
             "semantic:\n  disabled_collisions:\n    a: {b: Never, c: User}\n    b: {c: User}\n",
         ),
         (
-            "semantic:\n  group_states: [{name: home, group: arm, joint: [{name: x, value: 0}, {name: y, value: 1}]}]\n",
+            "semantic:\n"
+            "  group_states: [{name: home, group: arm, joint: [{name: x, value: 0}, {name: y, value: 1}]}]\n",
             "semantic:\n  group_states: {arm: {home: {x: 0, y: 1}}}\n",
         ),
     ],
