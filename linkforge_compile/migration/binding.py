@@ -15,7 +15,7 @@ def bind(called: Called, values: dict[str, str], scope: Table[Property], evaluat
     macro, context = called.macro, called.context
     for name, value in values.items():
         if name not in macro.parameters:
-            raise CannotTranslateError(f"a parameter '{name}', which the macro '{macro.name}' does not have,")
+            raise CannotTranslateError(f"a parameter '{name}', which the macro '{macro.name}' does not have")
         called.arguments[name] = evaluator.text(value, context)
     content = evaluator.walk(called.element.content, context)
     blocks = [one for one in content if isinstance(one, Element)]

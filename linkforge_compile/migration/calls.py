@@ -97,7 +97,7 @@ class Calls(MacroCalls):
             name = evaluator.path_text(evaluator.text(values.pop("macro", ""), context))
         macro, macros, symbols = find_macro(name, context.macros, context.symbols)
         if macro is None:
-            raise UndefinedError(f"a call of the macro '{name}', which is not defined,")
+            raise UndefinedError(f"a call of the macro '{name}', which is not defined")
         called = Called(macro, element, context)
         self.called.append(called)
         self._first.setdefault(macro.body, called)
@@ -330,5 +330,5 @@ def _mount_of(macro: Macro, content: list[Content]) -> Element | None:
 def _looked_up(name: str, context: Context, evaluator: Evaluator) -> ast.expr:
     node = evaluator.lookup(name, context)
     if node is None:
-        raise CannotTranslateError(f"the property '{name}', which is not defined,")
+        raise CannotTranslateError(f"the property '{name}', which is not defined")
     return node

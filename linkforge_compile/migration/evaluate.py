@@ -152,7 +152,7 @@ class Evaluator(ABC):
         if isinstance(entry, Block):
             raise CannotTranslateError(f"the block '{name}' in an expression")
         if (id(table), name) in self._resolving:
-            raise CannotTranslateError(f"the property '{name}', which depends on itself,")
+            raise CannotTranslateError(f"the property '{name}', which depends on itself")
         self._resolving.append((id(table), name))
         try:
             file = next((one.file for one in table.chain() if one.file), context.file)

@@ -15,6 +15,7 @@ from linkforge_compile.migration.logic import as_condition, combined, negated
 from linkforge_compile.migration.scopes import Block, Lazy, Macro, Property, Table, Value
 from linkforge_compile.migration.symbols import (
     CannotTranslateError,
+    MissingFileError,
     NotConstantError,
     Parts,
     Symbol,
@@ -76,7 +77,7 @@ class Expander(Evaluator):
                     if found and isinstance(found[0], Use):
                         found[0].comment = _comments_before(made)
                     made += found
-                except CannotTranslateError as error:
+                except (CannotTranslateError, NotConstantError) as error:
                     error.where = error.where or item.span
                     raise
                 if self._documented is documented:
@@ -137,10 +138,10 @@ class Expander(Evaluator):
             if not file.is_file():
                 if is_optional:
                     continue
-                raise UndefinedError(f"the file '{file}', which does not exist,")
+                raise MissingFileError(f"the file '{file}', which does not exist")
             around = self._including
             if file.resolve() in around or len(around) == _MOST_INCLUDED:
-                raise CannotTranslateError(f"'{file}', which includes itself or is included too deep,")
+                raise CannotTranslateError(f"'{file}', which includes itself or is included too deep")
             root = self.sources.open(file).root
             self._including = (*around, file.resolve())
             inside = replace(context, folder=file.parent.absolute(), macros=macros, symbols=symbols)
@@ -220,6 +221,8 @@ class Expander(Evaluator):
         marks = len(properties), len(macros)
         try:
             content = self.walk(element.content, context)
+        except MissingFileError:
+            raise NotConstantError(symbols_in(test)) from None  # the specs have only the outcome without it
         except UndefinedError:
             content = []  # authors refuse a value by calling a macro that does not exist
         # A condition around this one sees what they were before.
@@ -280,7 +283,7 @@ class Expander(Evaluator):
         else:
             block = self.calls.block(name, context)
         if not isinstance(block, Block):
-            raise CannotTranslateError(f"the block '{name}', which is not defined,")
+            raise CannotTranslateError(f"the block '{name}', which is not defined")
         if block.elements is None:
             return [copy.copy(one) for one in block.content]
         inside = replace(context, folder=block.folder)

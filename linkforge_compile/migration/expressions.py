@@ -70,7 +70,7 @@ def translate_expression(text: str, names: Names) -> ast.expr:
     """Return an expression of xacro as one of the language.
 
     Raises:
-        CannotTranslateError: for what the language has no form for.
+        CannotTranslateError: for what has no equivalent in the language.
 
     """
     extensions: list[Parts] = []

@@ -1,4 +1,4 @@
-"""What stays in xacro, where the language has no form for it: a call of a macro, or the xacro as a whole."""
+"""What stays in xacro, because it has no equivalent in the language: a call of a macro, or the xacro as a whole."""
 
 from __future__ import annotations
 

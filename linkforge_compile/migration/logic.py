@@ -108,5 +108,5 @@ def as_condition(node: ast.expr, text: str = "") -> ast.expr:
     if kind == TEXT:
         return ast.Compare(left=node, ops=[ast.NotEq()], comparators=[constant("")])
     if kind != BOOLEAN and not isinstance(node, ast.Attribute | ast.Subscript):
-        raise CannotTranslateError(f"'{text}', which is not certainly true or false,")
+        raise CannotTranslateError(f"'{text}', which is not certainly true or false")
     return node

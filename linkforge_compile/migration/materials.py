@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from linkforge_compile.migration.constants import constant_of
-from linkforge_compile.migration.symbols import NotConstantError, Part, Parts, as_expression, is_literal, tokens_of
+from linkforge_compile.migration.symbols import NotConstantError, Part, Parts, as_expression, is_literal
 from linkforge_compile.migration.template import Choice, Content, Element, Use, walk
+from linkforge_compile.migration.vectors import tokens_of
 from linkforge_compile.migration.written import canonical
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
@@ -24,6 +23,7 @@ from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
 from linkforge_compile.migration.files import FileMaker
+from linkforge_compile.migration.heads import as_comment, comments_above, stem_of
 from linkforge_compile.migration.inertia import Place
 from linkforge_compile.migration.materials import materials_in
 from linkforge_compile.migration.sources import Sources
@@ -46,6 +46,7 @@ from linkforge_compile.migration.symbols import (
     value_of,
 )
 from linkforge_compile.migration.template import FileDraft, Spec, split
+from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlElement
 
 _MOST_ROUNDS = 20
@@ -117,6 +118,8 @@ class Constraints:
     inline: Mapping[XmlElement, str] = field(default_factory=dict)
     """Why macros are no modules, by their bodies."""
     pinned: frozenset[str] = frozenset()
+    needed: Mapping[str, Span | None] = field(default_factory=dict)
+    """Where the values of these arguments are needed, as far as that is known."""
     keeps_raw: bool = False
     """Whether parts that are valid for some outcomes of conditions only are kept for others, as raw XML."""
     computed: frozenset[Place] = frozenset()
@@ -150,7 +153,8 @@ class Translator:
                 names = {symbol.wish for symbol in sources_of(error.symbols) if symbol.is_argument}
                 if names <= constraints.pinned:
                     raise CannotTranslateError(f"a value that depends on {error}") from None
-                constraints = replace(constraints, inline=inline, pinned=constraints.pinned | names)
+                needed = {**constraints.needed, **dict.fromkeys(names, error.where)}
+                constraints = replace(constraints, inline=inline, pinned=constraints.pinned | names, needed=needed)
         raise CannotTranslateError("it has no equivalent in the language")
 
     def _attempt(self, constraints: Constraints, inline: dict[XmlElement, str]) -> Migration:
@@ -305,26 +309,15 @@ def _write_specs(
     # Modules that others use come first: what they need decides what these give.
     for module in _inner_first(expander):
         try:
-            specs[module] = FileMaker(module, specs, materials, **options).spec(_as_comment(module.comment))
+            specs[module] = FileMaker(module, specs, materials, **options).spec(as_comment(module.comment))
         except CannotTranslateError as error:
             raise NoModuleError(_body_of(module), error.reason) from None
         except NotConstantError as error:
             raise no_module(module, error) from None
-    above = _as_comment("\n".join(_comments_above(robot.root)))
+    above = as_comment("\n".join(comments_above(robot.root)))
     specs[robot] = FileMaker(robot, specs, {}, **options).spec(above + head())
     files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
     return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, constraints)
-
-
-def _comments_above(root: XmlElement | None) -> list[str]:
-    """Return the comments above the root of a file, such as its license."""
-    return re.findall(r"<!--\s*(.*?)\s*-->", root.file.text[: root.begin], re.DOTALL) if root else []
-
-
-def _as_comment(text: str) -> str:
-    """Return a text as a comment that begins a spec."""
-    lines = (f"# {line.strip()}".rstrip() for line in text.splitlines())
-    return "".join(f"{line}\n" for line in lines) + "\n" * bool(text)
 
 
 def _inner_first(expander: Expander) -> list[FileDraft]:
@@ -338,11 +331,3 @@ def _inner_first(expander: Expander) -> list[FileDraft]:
 
     add(expander.robot)
     return made
-
-
-def stem_of(path: Path) -> str:
-    """Return the name of the spec of a xacro, without its ending."""
-    name = path.name
-    for suffix in (".xacro", ".urdf", ".xml"):
-        name = name.removesuffix(suffix)
-    return name

@@ -67,7 +67,7 @@ class Prover:
         """`loader` has the packages, and whether the user allows to read anything."""
         self._main, self._deadline = main, deadline or Deadline()
         self._settings = Settings((), {**loader.packages}, allow_outside=loader.roots.is_anywhere)
-        self._expanded: dict[tuple[tuple[str, str], ...], Robot | str] = {}
+        self._expanded: dict[tuple[tuple[str, str], ...], Robot | tuple[Diagnostic, ...]] = {}
 
     def compare(self, specs: Specs, combinations: Sequence[Arguments]) -> list[Comparison]:
         """Return the comparison of each combination."""
@@ -77,6 +77,11 @@ class Prover:
             late = Comparison(arguments, is_late=True)
             compared.append(late if self._deadline.is_over else self._compared(specs, arguments))
         return [one for one in compared if not (one.refused and OTHER_WORD in one.arguments.values())]
+
+    def faults_of_xacro(self, arguments: Arguments) -> tuple[Diagnostic, ...]:
+        """Return the errors in the robot that xacro expands."""
+        expanded = self._expansion(arguments)
+        return expanded if isinstance(expanded, tuple) else ()
 
     def compiled(self, specs: Specs, combinations: Iterable[Arguments]) -> Iterator[Robot]:
         """Yield the robots that specs compile to."""
@@ -99,8 +104,8 @@ class Prover:
 
     def _compared(self, specs: Specs, arguments: Arguments) -> Comparison:
         expected = self._expansion(arguments)
-        if isinstance(expected, str):
-            return Comparison(arguments, refused=expected)
+        if isinstance(expected, tuple):
+            return Comparison(arguments, refused=_first_error(expected))
         compilation = self._compile(specs, arguments)
         if compilation.robot is None:
             return Comparison(arguments, fault=_first_error(compilation.diagnostics))
@@ -111,27 +116,31 @@ class Prover:
         found = compare(expected, robot, tolerance=TOLERANCE, semantic=False)
         return Comparison(arguments, tuple(f"{'/'.join(one.path)}: {one.text}" for one in found))
 
-    def _expansion(self, arguments: Arguments) -> Robot | str:
+    def _expansion(self, arguments: Arguments) -> Robot | tuple[Diagnostic, ...]:
         key = tuple(sorted(arguments.items()))
         if key not in self._expanded:
             self._expanded[key] = self._expand(arguments)
         return self._expanded[key]
 
-    def _expand(self, arguments: Arguments) -> Robot | str:
+    def _expand(self, arguments: Arguments) -> Robot | tuple[Diagnostic, ...]:
         pairs = [f"{name}:={value}" for name, value in arguments.items()]
         packages, allow_outside = self._settings.packages, self._settings.allow_outside
         imported = import_urdf(self._main, arguments=pairs, packages=packages, allow_outside=allow_outside)
-        if imported.text is None:
-            return _first_error(imported.diagnostics)
+        if imported.text is None or imported.has_errors:
+            return _errors_in(imported.diagnostics)
         compilation = compile_source(imported.text, str(self._main), self._main.parent, self._settings)
         if compilation.robot is None:
-            return _first_error(compilation.diagnostics)
+            return _errors_in(compilation.diagnostics)
         leave_out(compilation.robot)
         return compilation.robot
 
 
+def _errors_in(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(one for one in diagnostics if one.severity is Severity.ERROR)
+
+
 def _first_error(diagnostics: Iterable[Diagnostic]) -> str:
-    errors = [one for one in diagnostics if one.severity is Severity.ERROR]
+    errors = _errors_in(diagnostics)
     if not errors:
         return "unknown"
     where = errors[0].span

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Severity
+from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import (
+    MACROS_ONLY,
     MIGRATION_TOO_LONG,
     PARAMETER_GONE,
     SPEC_NEEDS_OUTSIDE,
@@ -21,9 +22,10 @@ from linkforge_compile.listing import Listing
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.deadline import Deadline, OutOfTimeError
+from linkforge_compile.migration.heads import stem_of
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
-from linkforge_compile.migration.migrate import Constraints, Migration, Translator, stem_of
+from linkforge_compile.migration.migrate import Constraints, Migration, Translator
 from linkforge_compile.migration.proof import Comparison, Prover, Specs
 from linkforge_compile.migration.report import Figures, faults_of, figures_of, notes_of
 from linkforge_compile.migration.sources import Sources
@@ -34,6 +36,9 @@ from linkforge_compile.source.xml_tree import XmlElement
 
 _MOST_COMPILED = 8
 """For how many combinations of arguments an inertia is compared with that of the shapes."""
+
+
+_CALLS_THEM = "to migrate them, write a xacro beside it that includes it, with a link and a call of each macro"
 
 
 @dataclass
@@ -85,11 +90,13 @@ class Migrator:
 
     def run(self) -> Proved:
         """Return the specs with the fewest macros in place that are proved."""
+        if faults := self._prover.faults_of_xacro(self.given):
+            return self._without_result(faults)
         attempt = self._attempt(Constraints())
         if isinstance(attempt, CannotTranslateError):
             return self._kept(attempt)
         if isinstance(attempt, OutOfTimeError):
-            return self._without_result()
+            return self._without_result([self._too_long()])
         attempt = self._with_computed_inertia(self._mended(attempt))
         migration = attempt.migration
         if attempt.failures and migration.calls.kept:
@@ -151,11 +158,11 @@ class Migrator:
     def _faults_of(self, comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
         yield from faults_of(comparisons, self.deadline.seconds)
 
-    def _without_result(self) -> Proved:
-        seconds = f"{self.deadline.seconds:g}"
-        return Proved(
-            "", {}, [], [MIGRATION_TOO_LONG.at(None, what="the translation", seconds=seconds)], names=self.given
-        )
+    def _too_long(self) -> Diagnostic:
+        return MIGRATION_TOO_LONG.at(None, what="the translation", seconds=f"{self.deadline.seconds:g}")
+
+    def _without_result(self, faults: Sequence[Diagnostic]) -> Proved:
+        return Proved("", {}, [], [_with_way_out(one) for one in faults], names={name: name for name in self.given})
 
     def _specs(self, migration: Migration) -> Specs:
         return Specs(self.folder / migration.main, migration.names, migration.files)
@@ -168,12 +175,14 @@ class Migrator:
 
     def verify(self) -> Proved:
         """Compare the specs in the folder, which may have been changed since, with the xacro."""
+        if faults := self._prover.faults_of_xacro(self.given):
+            return self._without_result(faults)
         try:
             migration = self._translator.migrate(Constraints())
         except CannotTranslateError as error:
             return self._kept(error)
         except OutOfTimeError:
-            return self._without_result()
+            return self._without_result([self._too_long()])
         path, names = self.folder / migration.main, migration.names
         listing, _ = self._parameters_of(path)
         known = names.values() if listing is None else {one.name for one in listing.parameters}
@@ -211,6 +220,13 @@ class Migrator:
         comparisons = self._prover.compare(specs, [dict(self.given)])
         diagnostics = [*faults, report, *self._faults_of(comparisons)]
         return Proved(name, {name: text}, comparisons, diagnostics, names=specs.names)
+
+
+def _with_way_out(fault: Diagnostic) -> Diagnostic:
+    """Return what is wrong with a xacro; one that only declares macros comes with what to migrate."""
+    if fault.code is not MACROS_ONLY:
+        return fault
+    return replace(fault, notes=(*fault.notes, Note(_CALLS_THEM)))
 
 
 def _first_failure(comparisons: Sequence[Comparison]) -> str:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     ELEMENT_LEFT_OUT,
@@ -138,7 +138,12 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag)
     for name in sorted(migration.constraints.pinned):
         symbol = migration.expander.arguments[name]
-        yield ARGUMENT_PINNED.at(symbol.where, name=name, value=str(symbol.constant))
+        value = str(symbol.constant)
+        needed = migration.constraints.needed.get(name)
+        notes = [Note("its value is needed here", needed)] if needed else []
+        yield ARGUMENT_PINNED.at(
+            symbol.where, name=name, value=value.lower() if isinstance(symbol.constant, bool) else value, notes=notes
+        )
 
 
 def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Diagnostic]:
@@ -147,15 +152,22 @@ def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Dia
     if late:
         what = f"the comparison of {_counted(len(late), 'combination')}, the first with {_words(late[0])},"
         yield MIGRATION_TOO_LONG.at(None, what=what, seconds=f"{seconds:g}")
+    refused: dict[str, list[Arguments]] = {}
+    differences: dict[str, list[Arguments]] = {}
     for one in comparisons:
-        arguments = _words(one.arguments)
         if one.refused is not None:
-            yield MIGRATION_UNPROVED.at(None, arguments=arguments, reason=one.refused)
-        elif one.fault is not None:
-            yield MIGRATION_DIFFERS.at(None, arguments=arguments, text=one.fault)
-        else:
-            for text in one.differences[:_MOST_DIFFERENCES]:
-                yield MIGRATION_DIFFERS.at(None, arguments=arguments, text=text)
+            refused.setdefault(one.refused, []).append(one.arguments)
+        for text in (one.fault,) if one.fault else one.differences[:_MOST_DIFFERENCES]:
+            differences.setdefault(text, []).append(one.arguments)
+    for reason, combinations in refused.items():
+        yield MIGRATION_UNPROVED.at(None, arguments=_all_words(combinations), reason=reason)
+    for text, combinations in differences.items():
+        yield MIGRATION_DIFFERS.at(None, arguments=_all_words(combinations), text=text)
+
+
+def _all_words(combinations: Sequence[Arguments]) -> str:
+    first, *others = combinations
+    return _words(first) + (f" and {_counted(len(others), 'other combination')}" if others else "")
 
 
 def _words(arguments: Arguments) -> str:

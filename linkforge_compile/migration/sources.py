@@ -16,7 +16,7 @@ from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag, value
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.load import ImportSite, Loader
-from linkforge_compile.migration.symbols import CannotTranslateError, UndefinedError
+from linkforge_compile.migration.symbols import CannotTranslateError, MissingFileError
 from linkforge_compile.paths import find_package, folders_for_xacro
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlDocument
@@ -73,7 +73,7 @@ class Sources:
         declared, roots = self.loader.packages, self.loader.roots
         folder = next(folders_for_xacro(package, declared, self.main.parent, roots), None)
         if folder is None:
-            raise UndefinedError(f"no package named '{package}'; give --package {package}=FOLDER")
+            raise MissingFileError(f"no package named '{package}'; give --package {package}=FOLDER")
         self._found[package] = folder.absolute()
         return folder.absolute()
 

@@ -19,15 +19,16 @@ NUMBER, BOOLEAN, TEXT, VECTOR, MAP, LIST, UNKNOWN = "number", "boolean", "text",
 
 
 class NotConstantError(Exception):
-    """A value is needed at once, but depends on arguments; `symbols` are the names that it depends on."""
+    """A value is needed at once, but depends on arguments: on the names `symbols`, at `where` if that is known."""
 
     def __init__(self, symbols: frozenset[Symbol]) -> None:
         self.symbols = symbols
+        self.where: Span | None = None
         super().__init__(", ".join(sorted(symbol.wish for symbol in symbols)))
 
 
 class CannotTranslateError(Exception):
-    """The language has no form for a construct of xacro; `reason` says what, and `where` is its place if known."""
+    """Something in a xacro has no equivalent in the language; `reason` says what, `where` is its place if known."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -37,6 +38,10 @@ class CannotTranslateError(Exception):
 
 class UndefinedError(CannotTranslateError):
     """A macro is called that is not defined, or a file included that does not exist."""
+
+
+class MissingFileError(UndefinedError):
+    """A file or package is not there."""
 
 
 class NoModuleError(Exception):
@@ -319,22 +324,6 @@ def _ordered(node: ast.AST) -> list[Symbol]:
 def is_literal(parts: Parts) -> bool:
     """Whether a text has no expressions."""
     return all(isinstance(part, str) for part in parts)
-
-
-_BLANKS = re.compile(r"\s+")
-
-
-def tokens_of(parts: Parts) -> list[Parts]:
-    """Return the words of a text, each with the expressions in it."""
-    words: list[Parts] = [()]
-    for part in parts:
-        if not isinstance(part, str):
-            words[-1] = (*words[-1], part)
-            continue
-        first, *others = _BLANKS.split(part)
-        words[-1] = joined(words[-1], (first,) if first else ())
-        words += [(other,) if other else () for other in others]
-    return [word for word in words if word]
 
 
 def value_of(parts: Parts) -> ast.expr:

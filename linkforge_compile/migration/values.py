@@ -24,9 +24,9 @@ from linkforge_compile.migration.symbols import (
     is_literal,
     joined,
     literal_of,
-    tokens_of,
     with_whole_paths,
 )
+from linkforge_compile.migration.vectors import tokens_of
 from linkforge_compile.source import Span
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, scalar_value
 

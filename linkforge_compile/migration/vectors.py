@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 
 from linkforge_compile.migration.symbols import (
     MAP,
@@ -10,9 +11,11 @@ from linkforge_compile.migration.symbols import (
     UNKNOWN,
     UNSET,
     VECTOR,
+    Parts,
     Reference,
     Symbol,
     call,
+    joined,
     kind_of,
     literal_of,
     refer,
@@ -68,3 +71,19 @@ def _as_value(node: ast.expr, symbol: Symbol, count: int) -> ast.expr:
             choice = Symbol(f"{symbol.wish}_choice", "variable", (text,), text, VECTOR, place=symbol.place, size=count)
             return refer(choice)
     return as_vector(node, count) if literal_of(node) is UNSET else node
+
+
+_BLANKS = re.compile(r"\s+")
+
+
+def tokens_of(parts: Parts) -> list[Parts]:
+    """Return the words of a text, each with the expressions in it."""
+    words: list[Parts] = [()]
+    for part in parts:
+        if not isinstance(part, str):
+            words[-1] = (*words[-1], part)
+            continue
+        first, *others = _BLANKS.split(part)
+        words[-1] = joined(words[-1], (first,) if first else ())
+        words += [(other,) if other else () for other in others]
+    return [word for word in words if word]

@@ -29,11 +29,10 @@ from linkforge_compile.migration.symbols import (
     literal_of,
     refer,
     symbols_in,
-    tokens_of,
     with_whole_paths,
 )
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
-from linkforge_compile.migration.vectors import as_vector, is_data
+from linkforge_compile.migration.vectors import as_vector, is_data, tokens_of
 from linkforge_compile.migration.without_effect import WITHOUT_EFFECT
 from linkforge_compile.units import number_text
 

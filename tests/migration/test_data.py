@@ -6,7 +6,9 @@ import pytest
 
 from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.migration.prove import Migrator
+from linkforge_compile.migration.sources import Sources
+from linkforge_compile.migration.symbols import CannotTranslateError
+from tests.cli.in_process import linkforge
 from tests.migration.migrated import migrated, write
 
 LIMITS = """\
@@ -105,13 +107,19 @@ def test_a_file_with_the_tags_of_units_is_data_of_the_spec(tmp_path: Path):
 )
 def test_a_faulty_file_of_data_is_told_on_one_line(tmp_path: Path, data: bytes, reason: str):
     (tmp_path / "sizes.yaml").write_bytes(data)
-    main = write(
-        tmp_path, robot="""<xacro:property name="a" value="${xacro.load_yaml('sizes.yaml')}"/><link name="l${a}"/>"""
-    )
-    proved = Migrator(main, {}, tmp_path / "specs", Settings((), {}).loader(main), Diagnostics()).run()
-    [kept] = [one for one in proved.diagnostics if one.code.id == "LF8043"]
-    assert reason in kept.message
-    assert "\\n" not in kept.message
+    main = write(tmp_path, robot='<link name="a"/>')
+    sources = Sources(main, Settings().loader(main), Diagnostics())
+    with pytest.raises(CannotTranslateError) as found:
+        sources.data(tmp_path / "sizes.yaml")
+    assert reason in found.value.reason
+    assert "\n" not in found.value.reason
+
+
+def test_a_file_that_is_no_yaml_is_told_with_its_place(tmp_path: Path):
+    (tmp_path / "sizes.yaml").write_text("a: [1\n", "utf-8")
+    write(tmp_path, robot="""<link name="${xacro.load_yaml('sizes.yaml')['a']}"/>""")
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert "sizes.yaml' is no YAML: expected ',' or ']', but got '<stream end>' (line 2, column 1), in" in ran.stderr
 
 
 def test_a_vector_that_is_a_text_of_data_is_split(tmp_path: Path):

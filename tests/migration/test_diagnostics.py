@@ -4,6 +4,8 @@ import json
 import re
 from pathlib import Path
 
+import pytest
+
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.migration.migrated import write
@@ -40,7 +42,7 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     spec.write_text(spec.read_text("utf-8").replace("mu1: 0.5", "mu1: 0.6"), "utf-8")
     ran = linkforge(*verify, cwd=tmp_path)
     assert ran.returncode == 1
-    assert "with all defaults, the specs are another robot: " in ran.stderr  # LF8040
+    assert "with all defaults and 1 other combination, the specs are another robot: " in ran.stderr  # LF8040
 
 
 def test_other_content_is_replaced_only_by_force(tmp_path: Path):
@@ -58,7 +60,7 @@ def test_a_xacro_that_cannot_be_translated_is_used_as_it_is(tmp_path: Path):
     )
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 0
-    assert "because the language has no form for <xacro:element> [LF8043]" in ran.stderr
+    assert "because this cannot be translated: <xacro:element> [LF8043]" in ran.stderr
     spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert 'robot: {use: ../robot.xacro, prefix: "", with: {prefix: $(name_prefix)}}' in spec
 
@@ -147,3 +149,65 @@ def test_the_report_as_json_counts_the_macros_that_are_parts(tmp_path: Path):
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--json", cwd=tmp_path)
     report = json.loads(ran.stdout)
     assert (report["macros"], report["parts"], report["modules"]) == (3, 2, 2)
+
+
+FAULTS = {
+    "an unknown property": ('<xacro:property name="a" value="${b}"/><link name="${a}"/>', "LF8063", "2:33"),
+    "a missing file": ('<xacro:include filename="no.xacro"/>', "LF8064", "2:1"),
+    "a missing package": ('<xacro:include filename="$(find no_package)/a.xacro"/>', "LF3005", "2:1"),
+    "missing data": ("""<link name="${xacro.load_yaml('no.yaml')['a']}"/>""", "LF8064", "2:13"),
+    "no XML": ("<link", "LF8032", "3:1"),
+    "no link of that name": (
+        '<link name="a"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>',
+        "LF4102",
+        "2:77",
+    ),
+    "no default": ('<xacro:arg name="n"/><link name="$(arg n)"/>', "LF8032", "2:1"),
+    "macros only": ('<xacro:macro name="m"><link name="a"/></xacro:macro>', "LF8039", "1:1"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_what_is_wrong_with_the_xacro_is_told_once_and_at_its_place(fault: str, tmp_path: Path):
+    text, code, place = FAULTS[fault]
+    write(tmp_path, robot=text)
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 1
+    assert re.findall(r"^(\S+): (?:error|warning): .*\[(LF\d+)\]$", ran.stderr, re.MULTILINE) == [
+        (f"robot.xacro:{place}", code)
+    ]
+    assert ran.stderr.endswith("nothing is written\n")
+    assert ran.stdout == ""
+    assert not (tmp_path / "specs").exists()
+
+
+def test_a_file_of_macros_only_tells_how_to_migrate_them(tmp_path: Path):
+    write(tmp_path, robot=FAULTS["macros only"][0])
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert "write a xacro beside it that includes it, with a link and a call of each macro" in ran.stderr
+
+
+def test_a_condition_around_a_file_that_is_not_there_keeps_its_outcome(tmp_path: Path):
+    include = '<xacro:include filename="$(find no_package)/arm.xacro"/>'
+    write(
+        tmp_path,
+        robot=f"""<xacro:arg name="arm" default="false"/><link name="base"/>
+<xacro:if value="$(arg arm)">{include}</xacro:if>""",
+    )
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert "'arm' is 'false' in the specs" in ran.stderr  # LF8042
+    assert "robot.xacro:3:1: note: its value is needed here" in ran.stderr
+    spec = (tmp_path / "robot.robot.yaml").read_text("utf-8")
+    assert "arm: {type: boolean, default: false, enum: [false]}" in spec
+
+
+def test_one_reason_is_told_once_for_all_combinations(tmp_path: Path):
+    broken = '<joint name="j" type="fixed"><parent link="base"/><child link="nowhere"/></joint>'
+    write(
+        tmp_path,
+        robot=f"""<xacro:arg name="broken" default="false"/><xacro:arg name="big" default="false"/><link name="base"/>
+<xacro:if value="$(arg broken)">{broken}</xacro:if><xacro:if value="$(arg big)"><gazebo/></xacro:if>""",
+    )
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert ran.stderr.count("LF8044") == 1
+    assert "with broken:=true and 1 other combination, nothing is compared" in ran.stderr

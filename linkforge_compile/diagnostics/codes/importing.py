@@ -92,11 +92,12 @@ MACRO_IN_PLACE = Code("LF8041", _N, "macro '{name}' is no module: {reason}; its 
 ARGUMENT_PINNED = Code(
     "LF8042",
     _W,
-    "'{name}' is '{value}' in the specs, because it decides which files or macros there are; migrate again for another",
+    "'{name}' is '{value}' in the specs, because something that depends on it cannot be translated for all its values; "
+    "migrate again for another one",
 )
-XACRO_KEPT = Code("LF8043", _W, "this xacro is used as it is, because the language has no form for {reason}")
+XACRO_KEPT = Code("LF8043", _W, "this xacro is used as it is, because this cannot be translated: {reason}")
 MACRO_KEPT = Code(
-    "LF8045", _W, "macro '{name}' stays a macro of its xacro, because the language has no form for {reason}"
+    "LF8045", _W, "macro '{name}' stays a macro of its xacro, because this cannot be translated: {reason}"
 )
 MIGRATION_UNPROVED = Code(
     "LF8044", _W, "with {arguments}, nothing is compared, because xacro's robot is faulty: {reason}"

@@ -269,6 +269,8 @@ def _content(item: XmlContent, find: Find, span: Span) -> XmlContent:
     return item
 
 
+_NO_YAML = "'{1}' is no YAML: {0} (line {2}, column {3})"
+
 _MESSAGES = (
     (r"Undefined parameters \[(.*)\]", "the macro also takes {0}, which this call does not give"),
     (r'Invalid parameter "(.*)"', "the macro takes no '{0}'"),
@@ -283,6 +285,8 @@ _MESSAGES = (
         r"Unknown substitution command \[(.*?)\].*",
         "'$({0})' is none of $(arg), $(find), $(dirname), $(env), $(optenv)",
     ),
+    (r'while .* in ".*", line \d+, column \d+ (.*) in "(.*)", line (\d+), column (\d+)', _NO_YAML),
+    (r"xacro:arg: missing attribute 'default'", "<xacro:arg> needs 'default', also where a value is given; write one"),
     (r"xacro:(\w+): missing attribute '(\w+)'", "<xacro:{0}> has no attribute '{1}'"),
 )
 """Patterns of xacro's messages and our wording; other messages are shown as they are."""
