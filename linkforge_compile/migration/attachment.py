@@ -17,6 +17,7 @@ from linkforge_compile.migration.symbols import (
     as_parts,
     joined,
     symbols_in,
+    symbols_of,
 )
 from linkforge_compile.migration.template import Choice, Content, Element, FileDraft, Use, walk
 from linkforge_compile.migration.written import canonical
@@ -91,6 +92,13 @@ def outer_parts(content: list[Content]) -> frozenset[XmlElement]:
     names = tree | {_name(one, "name") for one, _ in joints if one not in moved}
     moved += [one for one, _ in found if one.tag in _SETTINGS and not _subjects(one) <= names]
     return frozenset(one.origin for one in moved if one.origin is not None)
+
+
+def parameters_in_names(content: list[Content]) -> frozenset[str]:
+    """Return the parameters in the names of links and joints."""
+    names = (one.attributes.get("name", ()) for one, _ in parts_of(content, ()) if one.tag in ("link", "joint"))
+    symbols = frozenset().union(*(symbols_of(canonical(parts)) for parts in names))
+    return frozenset(one.wish for one in symbols if one.role == "parameter")
 
 
 def settings_outside(content: list[Content]) -> frozenset[XmlElement]:

@@ -6,7 +6,12 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from linkforge_compile.migration.attachment import find_attachment, outer_parts, require_known_blocks
+from linkforge_compile.migration.attachment import (
+    find_attachment,
+    outer_parts,
+    parameters_in_names,
+    require_known_blocks,
+)
 from linkforge_compile.migration.binding import bind
 from linkforge_compile.migration.blocks import block_symbol, marker
 from linkforge_compile.migration.constants import constant_of
@@ -155,7 +160,8 @@ class Calls(MacroCalls):
             file.attachment = find_attachment(file.content)
             require_known_blocks(file)
         except CannotTranslateError as error:
-            raise NoModuleError(macro.body, error.reason, outer=outer_parts(file.content)) from None
+            outer, named = outer_parts(file.content), parameters_in_names(file.content)
+            raise NoModuleError(macro.body, error.reason, outer=outer, named=named) from None
         except NotConstantError as error:
             if any(symbol.is_argument for symbol in error.symbols):
                 raise

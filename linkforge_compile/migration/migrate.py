@@ -185,7 +185,7 @@ class Translator:
                     for one in called:  # what is about these
                         plan.outer[body] |= settings_outside(split(one.content, plan.outer[body])[0])
                     _settle(plan, body, called, inline)
-                elif same := _constant(_parameters(called) - known, called):
+                elif same := _constant(error.named - known, called) or _constant(_parameters(called) - known, called):
                     plan.fixed[body] = known | same
                 else:
                     inline[body] = error.reason

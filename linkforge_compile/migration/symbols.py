@@ -48,7 +48,7 @@ class NoModuleError(Exception):
     """A macro cannot be a module; `body` is its element.
 
     It can be one if the parameters `fixed` are none, because they have the same value in all calls, or if the file that
-    uses it has the elements `outer`.
+    uses it has the elements `outer`. Else it may help if those are none that are `named`, in the names of its parts.
     """
 
     def __init__(
@@ -57,8 +57,9 @@ class NoModuleError(Exception):
         reason: str,
         fixed: frozenset[str] = frozenset(),
         outer: frozenset[XmlElement] = frozenset(),
+        named: frozenset[str] = frozenset(),
     ) -> None:
-        self.body, self.reason, self.fixed, self.outer = body, reason, fixed, outer
+        self.body, self.reason, self.fixed, self.outer, self.named = body, reason, fixed, outer, named
         super().__init__(reason)
 
 

@@ -207,3 +207,29 @@ def test_a_macro_that_calls_itself_is_written_out(tmp_path: Path):
         """,
     ).robot
     assert "  joint_3: {type: fixed, parent: link_2, child: link_3}" in spec
+
+
+def test_a_name_that_a_prefix_would_change_fixes_only_the_prefix(tmp_path: Path):
+    text = """
+<xacro:macro name="rover" params="joint_prefix:='' antenna:=true height:=0.1">
+  <link name="body"/>
+  <link name="left"/>
+  <link name="right"/>
+  <joint name="${joint_prefix}left_joint" type="continuous">
+    <parent link="body"/><child link="left"/><axis xyz="0 1 0"/>
+  </joint>
+  <joint name="${joint_prefix}right_joint" type="continuous">
+    <parent link="body"/><child link="right"/><axis xyz="0 1 0"/><mimic joint="left_joint"/>
+  </joint>
+  <xacro:if value="${antenna}">
+    <link name="antenna"/>
+    <joint name="antenna_joint" type="fixed">
+      <parent link="body"/><child link="antenna"/><origin xyz="0 0 ${height}"/>
+    </joint>
+  </xacro:if>
+</xacro:macro>
+<xacro:rover/>
+"""
+    module = migrated(tmp_path, text).files["rover.robot.yaml"]
+    assert "parameters:\n  antenna: true\n  height: {type: length, default: 0.1}\n" in module
+    assert "mimic: {joint: left_joint}" in module
