@@ -251,6 +251,7 @@ class Calls(MacroCalls):
             top.entries[name] = source
             return evaluator.lookup(name, context)
         symbol = Symbol(name, "variable", as_parts(constant(known)) or ("",), known, kind_of(constant(known)))
+        symbol.place = source.place if source else symbol.place
         context.file.symbols.append(symbol)
         top.entries[name] = Value(refer(symbol))
         return refer(symbol)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import copy
+import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
@@ -185,6 +186,8 @@ class Evaluator(ABC):
         known: object = UNSET
         with suppress(NotConstantError):
             known = constant_of(node)
+        if known == math.pi:
+            return ast.Name(id="pi", ctx=ast.Load())
         symbol = Symbol(name, "variable", as_parts(node) or ("",), known, kind_of(node), comment)
         symbol.place = place
         file.symbols.append(symbol)

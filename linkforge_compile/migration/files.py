@@ -27,7 +27,6 @@ from linkforge_compile.migration.values import Values
 from linkforge_compile.migration.written import Writer
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
-from linkforge_compile.syntax.writer import write
 
 _SECTIONS = ("materials", "links", "joints", "frames", "transmissions", "ros2_control")
 
@@ -102,9 +101,8 @@ class FileMaker:
         of_uses = uses.sections(self._values, where)
         self._comments |= uses.comments
         made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
-        text = write(made, self._comments, self._endings)
-        raw = tuple(raw_in(made))
-        return Spec(f"{head}{text}", self._names, dict(self._values.used), raw, tuple(self._writer.left_out))
+        raw, left_out, used = tuple(raw_in(made)), tuple(self._writer.left_out), dict(self._values.used)
+        return Spec(head, made, self._names, used, raw, left_out, self._comments, self._endings)
 
     def _read(self, text: str, outside: frozenset[str]) -> Imported:
         sink = Diagnostics()

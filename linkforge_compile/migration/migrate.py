@@ -26,6 +26,7 @@ from linkforge_compile.migration.files import FileMaker
 from linkforge_compile.migration.heads import as_comment, comments_above, stem_of
 from linkforge_compile.migration.inertia import Place
 from linkforge_compile.migration.materials import materials_in
+from linkforge_compile.migration.shared import with_shared
 from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import (
     MAP,
@@ -60,7 +61,7 @@ class Migration:
     files: dict[str, str]
     expander: Expander
     calls: Calls
-    specs: dict[FileDraft, Spec]
+    specs: Mapping[FileDraft, Spec]
     constraints: Constraints
     """Those with which another attempt has the same result."""
 
@@ -316,8 +317,12 @@ def _write_specs(
             raise no_module(module, error) from None
     above = as_comment("\n".join(comments_above(robot.root)))
     specs[robot] = FileMaker(robot, specs, {}, **options).spec(above + head())
-    files = {f"{draft.stem}.robot.yaml": specs[draft].text for draft in reversed(specs)}
-    return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, specs, constraints)
+    name = f"{robot.stem}_shared.yaml"
+    made, shared = with_shared(specs, name)
+    files = {f"{draft.stem}.robot.yaml": made[draft].text for draft in reversed([*made])}
+    if shared:
+        files[name] = shared.text
+    return Migration(f"{robot.stem}.robot.yaml", files, expander, calls, made, constraints)
 
 
 def _inner_first(expander: Expander) -> list[FileDraft]:

@@ -10,6 +10,8 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.migration.symbols import Parts, Symbol
 from linkforge_compile.source.xml_tree import XmlElement
+from linkforge_compile.syntax import YamlMap, YamlNode
+from linkforge_compile.syntax.writer import write
 
 
 @dataclass(eq=False)
@@ -152,13 +154,20 @@ def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list
 
 @dataclass
 class Spec:
-    """The text of a spec, the symbols that it declares by their names, and the keys of its raw XML.
+    """The comment that begins a spec, its tree, the symbols that it declares by their names, and the keys of raw XML.
 
     `left_out` are elements of the xacro that have no effect.
     """
 
-    text: str
+    head: str
+    tree: YamlMap
     names: Mapping[Symbol, str]
     used: Mapping[Symbol, None]
     raw: tuple[str, ...] = field(default=())
     left_out: tuple[Element, ...] = ()
+    comments: Mapping[YamlNode, str] = field(default_factory=dict)
+    endings: Mapping[YamlNode, str] = field(default_factory=dict)
+
+    @property
+    def text(self) -> str:
+        return f"{self.head}{write(self.tree, self.comments, self.endings)}"

@@ -48,6 +48,7 @@ def test_a_macro_becomes_a_module_with_the_joint_that_attaches_it_as_its_mount(t
         == """\
 linkforge: 1
 name: wheel
+include: [robot_shared.yaml]
 
 parameters:
   # in the xacro: name
@@ -65,9 +66,6 @@ mount:
     child: $(base_name)_wheel
     axis: y
     gazebo: {preserveFixedJoint: true}
-
-materials:
-  black: {color: [0, 0, 0]}
 
 links:
   $(base_name)_wheel:
@@ -114,7 +112,8 @@ def test_a_macro_sees_the_constants_around_it_and_gets_what_depends_on_arguments
         """,
     )
     module = made.files["box.robot.yaml"]
-    assert "variables:\n  unit: 0.01\n" in module
+    assert "name: box\ninclude: [robot_shared.yaml]\n" in module
+    assert made.files["robot_shared.yaml"] == "linkforge: 1\n\nvariables:\n  unit: 0.01\n"
     assert "  size: {type: length}\n" in module
     assert "with: {base_name: one, size: $(size)}" in made.robot
 
