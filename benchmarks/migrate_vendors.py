@@ -174,7 +174,7 @@ def _line(row: Mapping[str, Any]) -> str:
 def _print_totals(rows: list[dict[str, Any]]) -> None:
     total: Counter[str] = Counter()
     for row in (one for one in rows if one.get("combinations", True)):
-        total.update(row.get("figures", {}))
+        total.update({key: value for key, value in row.get("figures", {}).items() if isinstance(value, int)})
         total.update({"kept_macros": row.get("defined", 0), "kept_parts": row.get("defined_parts", 0)})
     robots = [row for row in rows if row.get("combinations", True)]
     same = sum(row["same"] and "figures" in row for row in robots)

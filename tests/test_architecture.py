@@ -56,7 +56,7 @@ MAY_IMPORT = {
     ),
     "migration": (
         "source diagnostics units syntax expressions core compilation importers load compare listing analysis pipeline "
-        "importing paths roots expand"
+        "importing paths roots expand file_names"
     ),
     "launch": "diagnostics formats core load expand listing pipeline file_watcher",
     "editor": "diagnostics units syntax schema load expand listing lower core roots resources formats fresh_stack",

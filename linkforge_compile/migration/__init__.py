@@ -16,7 +16,7 @@ The stages, from top to bottom; each imports those above it:
     values       expressions in the place of these numbers
     merge        one tree of the trees for the outcomes of conditions
     parameters   types of parameters, and lists and numbers as variables have them
-    heads        the name of a spec and its first comments
+    heads        the comments that begin a spec
     files        a template as the tree of a spec
     combinations which values of the arguments a proof compares
     proof        compares what the specs compile to with what xacro expands

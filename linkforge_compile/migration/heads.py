@@ -1,19 +1,10 @@
-"""The name of a spec, and the comments with which it begins."""
+"""The comments with which a spec begins."""
 
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 from linkforge_compile.source.xml_tree import XmlElement
-
-
-def stem_of(path: Path) -> str:
-    """Return the name of the spec of a xacro, without its ending."""
-    name = path.name
-    for suffix in (".xacro", ".urdf", ".xml"):
-        name = name.removesuffix(suffix)
-    return name
 
 
 def comments_above(root: XmlElement | None) -> list[str]:

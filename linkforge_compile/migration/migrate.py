@@ -23,7 +23,7 @@ from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
 from linkforge_compile.migration.files import FileMaker
-from linkforge_compile.migration.heads import as_comment, comments_above, stem_of
+from linkforge_compile.migration.heads import as_comment, comments_above
 from linkforge_compile.migration.inertia import Place
 from linkforge_compile.migration.materials import materials_in
 from linkforge_compile.migration.shared import with_shared
@@ -293,7 +293,7 @@ def _kind(node: ast.expr) -> str:
 def _write_specs(
     robot: FileDraft, expander: Expander, calls: Calls, constraints: Constraints, head: Callable[[], str]
 ) -> Migration:
-    robot.stem = stem_of(expander.sources.main)
+    robot.stem = expander.sources.spec_stem
     specs: dict[FileDraft, Spec] = {}
     stems = {robot.stem}
     for file in (module.file for module in calls.modules.values()):

@@ -22,7 +22,6 @@ from linkforge_compile.listing import Listing
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.deadline import Deadline, OutOfTimeError
-from linkforge_compile.migration.heads import stem_of
 from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Constraints, Migration, Translator
@@ -74,7 +73,10 @@ class _Attempt(NamedTuple):
 
 @dataclass
 class Migrator:
-    """Migrates one xacro into a folder, in which relative paths of the specs start."""
+    """Migrates one xacro into a folder, in which relative paths of the specs start.
+
+    `stem` is the name of the robot's spec, without its ending; empty for that of the xacro.
+    """
 
     main: Path
     given: Mapping[str, str]
@@ -82,9 +84,10 @@ class Migrator:
     loader: Loader
     sink: Diagnostics
     deadline: Deadline = field(default_factory=Deadline)
+    stem: str = ""
 
     def __post_init__(self) -> None:
-        self.sources = Sources(self.main, self.loader, self.sink, self.folder)
+        self.sources = Sources(self.main, self.loader, self.sink, self.folder, self.stem)
         self._translator = Translator(self.given, self.sources, self.deadline, self._head)
         self._prover = Prover(self.main, self.loader, self.deadline)
 
@@ -203,7 +206,8 @@ class Migrator:
         needed = {name: place for name, place in self.loader.packages.items() if name in self.sources.found}
         for name, place in needed.items():
             options += ("--package", f"{name}={relative_path(self.folder, place)}")
-        command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", ".")
+        output = f"{self.stem}.robot.yaml" if self.stem else "."
+        command = ("linkforge", "migrate", relative_path(self.folder, self.main), *options, "-o", output)
         return f"# {on_one_line(shlex.join(command))}\n\n"
 
     def _kept(self, error: CannotTranslateError) -> Proved:
@@ -215,7 +219,7 @@ class Migrator:
         document = self.sources.documents.get(self.main.absolute())
         robot = (document.root.get("name") if document else None) or ""
         text = kept_spec(self.main, self.folder, {**known, **self.given}, self._head(), robot)
-        name = f"{stem_of(self.main)}.robot.yaml"
+        name = f"{self.sources.spec_stem}.robot.yaml"
         specs = Specs(self.folder / name, parameter_names(known), {name: text})
         comparisons = self._prover.compare(specs, [dict(self.given)])
         diagnostics = [*faults, report, *self._faults_of(comparisons)]

@@ -51,6 +51,8 @@ class Figures(NamedTuple):
     """The arguments with several values in the proof."""
     settled: tuple[str, ...]
     """The other arguments, of which only one value is compared."""
+    renamed: tuple[tuple[str, str], ...]
+    """The arguments whose parameters have another name, which users give."""
     combinations: int
     equal: int
     unproved: int
@@ -58,7 +60,7 @@ class Figures(NamedTuple):
     """The combinations that were not compared, because the time was over."""
 
     def as_json(self) -> dict[str, Any]:
-        return self._asdict()
+        return {**self._asdict(), "renamed": dict(self.renamed)}
 
 
 def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figures:
@@ -90,6 +92,7 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
         lines_after=sum(text.count("\n") for text in migration.files.values()),
         varied=tuple(name for name, values in migration.domains.items() if len(values) > 1),
         settled=tuple(name for name, values in migration.domains.items() if len(values) <= 1),
+        renamed=tuple(pair for pair in migration.names.items() if pair[0] != pair[1]),
         combinations=len(comparisons),
         equal=sum(one.is_equal for one in comparisons),
         unproved=sum(one.refused is not None for one in comparisons),
@@ -106,6 +109,9 @@ def lines_of(figures: Figures) -> Iterator[str]:
     if figures.varied or figures.settled:
         one_value = f"; with one value: {', '.join(figures.settled)}" if figures.settled else ""
         yield f"arguments   varied: {', '.join(figures.varied) or 'none'}{one_value}"
+    if figures.renamed:
+        names = ", ".join(f"{name} is {new}" for name, new in figures.renamed)
+        yield f"renamed     {names}: launch files give the new names"
     kept = f", {figures.kept} stay in xacro" if figures.kept else ""
     macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
     yield f"macros      {figures.macros}: {macros}"

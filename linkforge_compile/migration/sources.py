@@ -13,6 +13,7 @@ import yaml
 
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag, value_with_tag
+from linkforge_compile.file_names import stem_of
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.load import ImportSite, Loader
@@ -28,10 +29,15 @@ _WILDCARDS = frozenset("*[?")
 class Sources:
     """The files of one xacro, each parsed once, so that a macro that is included twice is one macro."""
 
-    def __init__(self, main: Path, loader: Loader, sink: Diagnostics, spec_folder: Path | None = None) -> None:
-        """`spec_folder` is that of the specs, in which their relative paths start; None for that of the file."""
+    def __init__(
+        self, main: Path, loader: Loader, sink: Diagnostics, spec_folder: Path | None = None, spec_stem: str = ""
+    ) -> None:
+        """`spec_folder` is that of the specs, in which their relative paths start; None for that of the file.
+
+        `spec_stem` is the name of the robot's spec, without its ending; empty for that of the file.
+        """
         self.main, self.loader, self.sink = main, loader, sink
-        self.spec_folder = spec_folder or main.parent
+        self.spec_folder, self.spec_stem = spec_folder or main.parent, spec_stem or stem_of(main)
         self._found: dict[str, Path] = {}
         self._documents: dict[Path, XmlDocument] = {}
         self._data: dict[Path, object] = {}

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from linkforge_compile.migration.proof import Comparison, Prover
 from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 from tests.migration.migrated import write
@@ -211,3 +212,42 @@ def test_one_reason_is_told_once_for_all_combinations(tmp_path: Path):
     ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
     assert ran.stderr.count("LF8044") == 1
     assert "with broken:=true and 1 other combination, nothing is compared" in ran.stderr
+
+
+def _another_robot(_specs: object, arguments: dict[str, str]) -> Comparison:
+    return Comparison(arguments, differences=("links/base: removed",))
+
+
+def test_a_draft_is_written_although_it_is_another_robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(Prover, "_compared", lambda _self, specs, arguments: _another_robot(specs, arguments))
+    write(tmp_path, robot='<link name="base"/>')
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
+    assert ran.returncode == 1
+    assert ran.stderr.endswith("nothing is written; --draft writes the specs as they are, to mend them by hand\n")
+    assert not (tmp_path / "specs").exists()
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--draft", cwd=tmp_path)
+    assert ran.returncode == 1
+    assert "proof       0 of 1 combination of its arguments are the same robot\n" in ran.stdout
+    draft = "wrote specs/robot.robot.yaml, a draft that is not proved; mend it, and run this again with --verify\n"
+    assert ran.stderr.endswith(draft)
+    assert "base: {}" in (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
+
+
+def test_the_output_may_be_the_file_of_the_robot(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    assert linkforge("migrate", "robot.xacro", "-o", "specs/arm.robot.yaml", cwd=tmp_path).returncode == 0
+    text = (tmp_path / "specs/arm.robot.yaml").read_text("utf-8")
+    assert text.startswith("# linkforge migrate ../robot.xacro -o arm.robot.yaml\n")
+    verify = ("migrate", "robot.xacro", "-o", "specs/arm.robot.yaml", "--verify")
+    assert linkforge(*verify, cwd=tmp_path).returncode == 0
+    ran = linkforge("migrate", "robot.xacro", "-o", "arm.yaml", cwd=tmp_path)
+    assert ran.returncode == 2
+    assert "-o takes a folder, or a file that ends in .robot.yaml" in ran.stderr
+
+
+def test_the_report_lists_the_arguments_that_are_renamed(tmp_path: Path):
+    write(tmp_path, robot='<xacro:arg name="prefix" default="a_"/><link name="$(arg prefix)base"/>')
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert "renamed     prefix is name_prefix: launch files give the new names\n" in ran.stdout
+    ran = linkforge("migrate", "robot.xacro", "--json", cwd=tmp_path)
+    assert json.loads(ran.stdout)["renamed"] == {"prefix": "name_prefix"}

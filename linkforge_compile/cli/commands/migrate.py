@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     from linkforge_compile.migration.prove import Proved
 
+_ENDING = ".robot.yaml"
+
 _EXAMPLES = """\
 Macros become modules with parameters, properties variables, arguments parameters, and conditions `when`. The xacro is
 read without running it; then the specs are compiled and compared with what xacro expands, for each value of a boolean
@@ -36,8 +38,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge migrate [options] ROBOT.urdf.xacro [ARGUMENT:=VALUE ...]"
     parser.epilog = _EXAMPLES
     parser.add_argument("words", metavar="ROBOT.urdf.xacro", nargs="+", help="the xacro of the whole robot")
-    parser.add_argument("-o", "--output", metavar="FOLDER", default=".", help="the folder of the specs (here)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FOLDER",
+        default=".",
+        help="the folder of the specs (here), or the robot's file, such as robots/arm.robot.yaml",
+    )
     parser.add_argument("--force", action="store_true", help="replace existing specs with other content")
+    parser.add_argument(
+        "--draft", action="store_true", help="write specs that are another robot, too, to mend them by hand"
+    )
     parser.add_argument(
         "--verify", action="store_true", help="compare the specs in the folder with the xacro, and write nothing"
     )
@@ -65,10 +76,10 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.migration.prove import Migrator
 
     settings = Settings((), packages_of(arguments), allow_outside=arguments.allow_outside)
-    folder, sink = Path(arguments.output), Diagnostics()
+    (folder, stem), sink = _output(Path(arguments.output)), Diagnostics()
     given = dict(_split(word) for word in assignments)
     deadline = Deadline(arguments.seconds, status_at_intervals(arguments))
-    migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink, deadline)
+    migrator = Migrator(xacro, given, folder, settings.loader(xacro), sink, deadline, stem)
     proved = migrator.verify() if arguments.verify else migrator.run()
     if unknown := next((name for name in given if name not in proved.names), None):
         from linkforge_compile.diagnostics.suggest import did_you_mean
@@ -76,13 +87,21 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(f"{xacro} has no argument '{unknown}'{did_you_mean(unknown, proved.names)}")
     report(proved.diagnostics, arguments)
     _print(proved, arguments)
-    if not proved.is_equal:
-        if not arguments.verify:
-            print_status("nothing is written", arguments)
-        return FAULTY_SPEC
-    if not arguments.verify:
+    if not arguments.verify and (proved.is_equal or (arguments.draft and proved.files)):
         _write(proved, folder, arguments)
-    return OK
+    elif not arguments.verify:
+        way_out = "; --draft writes the specs as they are, to mend them by hand" if proved.files else ""
+        print_status(f"nothing is written{way_out}", arguments)
+    return OK if proved.is_equal else FAULTY_SPEC
+
+
+def _output(path: Path) -> tuple[Path, str]:
+    """Return the folder of the specs, and the name of the robot's without its ending; empty for that of the xacro."""
+    if path.is_dir() or path.suffix not in (".yaml", ".yml"):
+        return path, ""
+    if not path.name.endswith(_ENDING):
+        raise UsageError(f"'{path}' is no name of a spec; -o takes a folder, or a file that ends in {_ENDING}")
+    return path.parent, path.name.removesuffix(_ENDING)
 
 
 def _split(word: str) -> tuple[str, str]:
@@ -111,4 +130,5 @@ def _write(proved: Proved, folder: Path, arguments: argparse.Namespace) -> None:
         have = "has other content" if len(others) == 1 else "have other content"
         raise UsageError(f"nothing is written: {', '.join(others)} {have}; use --force to replace it")
     write_changed(contents)
-    print_status(f"wrote {', '.join(str(path) for path in contents)}", arguments)
+    state = "" if proved.is_equal else ", a draft that is not proved; mend it, and run this again with --verify"
+    print_status(f"wrote {', '.join(str(path) for path in contents)}{state}", arguments)
