@@ -87,6 +87,7 @@ def _comes_from_other_spec(where: Span) -> bool:
     return origin is not None and origin.span.file.outermost is not where.file.outermost
 
 
+_PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)(?:/+([^/].*)?)?", re.DOTALL)
 _NAME = re.compile(r"\w[\w.-]*")
 """What may be the name of a package folder; excludes paths such as those of `$(find ../..)` in a xacro."""
 
@@ -118,8 +119,7 @@ def find_package(name: str, declared: Mapping[str, Path], start: Path | None, ro
     `declared` are the folders that the user or the spec names. After them come the folders upward from `start` whose
     package.xml has the name, AMENT_PREFIX_PATH and ROS_PACKAGE_PATH.
     """
-    source = _in_source_tree(name, start, roots)
-    return next(_package_folders(name, declared, source, _in_environment(name, roots)), None)
+    return next((place.folder for place in searched_places(name, declared, start, roots) if place.folder), None)
 
 
 def folders_for_xacro(name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots) -> Iterator[Path]:
@@ -128,8 +128,19 @@ def folders_for_xacro(name: str, declared: Mapping[str, Path], start: Path | Non
     As for xacro, the sourced environment comes before the source tree, where files that CMake installs elsewhere have
     another path.
     """
-    source = _in_source_tree(name, start, roots)
-    yield from _package_folders(name, declared, _in_environment(name, roots), source)
+    if name in declared:
+        yield declared[name]
+    elif _NAME.fullmatch(name):
+        yield from chain(_in_ament(name), _in_ros_1(name, roots), _in_source_tree(name, start, roots))
+
+
+def split_package_path(path: str) -> tuple[str, str] | None:
+    """Return the package of `NAME/PATH`, what follows `package://`, and the path in it; None for any other text.
+
+    The path is empty for a package alone.
+    """
+    parts = _PACKAGE_PATH.fullmatch(path)
+    return (parts[1], parts[2] or "") if parts else None
 
 
 class SearchedPlace(NamedTuple):
@@ -141,16 +152,21 @@ class SearchedPlace(NamedTuple):
     """The folder of the package, None if it is not there."""
 
 
-def searched_places(name: str, declared: Mapping[str, Path], start: Path, roots: Roots) -> Iterator[SearchedPlace]:
+def searched_places(
+    name: str, declared: Mapping[str, Path], start: Path | None, roots: Roots
+) -> Iterator[SearchedPlace]:
     """Yield all places where `find_package` looks for a package, in its order; the first with a folder is used."""
     others = f"not among {', '.join(sorted(declared))}" if declared else "none declared"
     yield SearchedPlace("declared", str(declared.get(name, others)), declared.get(name))
-    above = as_walked(start)
-    manifests = {folder: found for folder in (above, *above.parents) if (found := package_name(folder, roots))}
-    for folder, found in manifests.items():
-        is_it = found == name
-        yield SearchedPlace("folders above", f"{folder} is package {found}", folder if is_it else None)
-    if not manifests:
+    if not _NAME.fullmatch(name):
+        return
+    above = as_walked(start) if start else None
+    manifests = 0
+    for folder in (above, *above.parents) if above else ():
+        if found := package_name(folder, roots):
+            manifests += 1
+            yield SearchedPlace("folders above", f"{folder} is package {found}", folder if found == name else None)
+    if above and not manifests:
         yield SearchedPlace("folders above", f"no package.xml in {above} or above", None)
     for variable, folders in (
         ("AMENT_PREFIX_PATH", {prefix: _in_prefix(prefix, name) for prefix in search_path("AMENT_PREFIX_PATH")}),
@@ -162,18 +178,6 @@ def searched_places(name: str, declared: Mapping[str, Path], start: Path, roots:
             yield SearchedPlace(variable, str(candidate or missing), candidate)
         if not folders:
             yield SearchedPlace(variable, "not set", None)
-
-
-def _package_folders(name: str, declared: Mapping[str, Path], *searched: Iterator[Path]) -> Iterator[Path]:
-    if name in declared:
-        yield declared[name]
-    elif _NAME.fullmatch(name):
-        yield from chain(*searched)
-
-
-def _in_environment(name: str, roots: Roots) -> Iterator[Path]:
-    yield from _in_ament(name)
-    yield from _in_ros_1(name, roots)
 
 
 def _in_source_tree(name: str, start: Path | None, roots: Roots) -> Iterator[Path]:

@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import NOT_A_SPEC, USE_OF_NOWHERE
 from linkforge_compile.limits import MAX_FILE_BYTES
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.paths import Package, find_package, follow, unknown_package
+from linkforge_compile.paths import Package, find_package, follow, split_package_path, unknown_package
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import read_bytes
@@ -25,7 +25,6 @@ _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 _XML_OF_ROBOTS = (_URDF_ENDING, ".srdf")
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
-_PACKAGE_PATH = re.compile(r"([A-Za-z_][\w.-]*)/+([^/].*)", re.DOTALL)
 _ZERO_BYTE = "no path holds a zero byte"
 
 
@@ -124,16 +123,16 @@ def _locate_file(site: PathSite, sink: Diagnostics) -> Target | None:
 
 
 def _locate_in_package(site: PathSite, path: str, loader: Loader, sink: Diagnostics) -> Target | None:
-    match = _PACKAGE_PATH.fullmatch(path)
-    if match is None:
+    parts = split_package_path(path)
+    if parts is None or not parts[1]:
         return _report_unusable(site, "it takes the form package://NAME/PATH", sink)
-    name, start, roots = match[1], site.user.folder, loader.roots
+    (name, inside), start, roots = parts, site.user.folder, loader.roots
     declared = {**site.packages, **loader.packages}
     folder = find_package(name, declared, start, roots)
     if folder is None:
         sink.report(unknown_package(site.where, name, start, roots, loader.nearby_packages, near=declared))
         return None
-    return Target(follow(folder, match[2]), Package(name, folder))
+    return Target(follow(folder, inside), Package(name, folder))
 
 
 def _report_unusable(site: PathSite, reason: str, sink: Diagnostics) -> Target | None:

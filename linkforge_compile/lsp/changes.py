@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from difflib import SequenceMatcher
+from itertools import accumulate
 from typing import TypeAlias
 
 from lsprotocol import types
 
 from linkforge_compile.diagnostics.fix import Edit
 from linkforge_compile.lsp.convert import Columns, path_of, uri_of
+from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
 
 Changes: TypeAlias = Mapping[str, Sequence[types.TextEdit]]
@@ -25,6 +28,19 @@ def changes_of(edits: Iterable[Edit], columns: Columns) -> Changes:
         if path := edit.span.file.path:
             changes.setdefault(uri_of(path), []).append(types.TextEdit(columns.range(edit.span), edit.text))
     return changes
+
+
+def edits_to(text: str, document: Document) -> list[types.TextEdit]:
+    """Return the edits that make another text of a document, of changed lines only: cursors on others stay."""
+    file = document.file
+    before, after = file.counted.splitlines(keepends=True), text.removeprefix("\ufeff").splitlines(keepends=True)
+    starts = [0, *accumulate(map(len, before))]
+    changes = SequenceMatcher(None, before, after).get_opcodes()
+    return [
+        types.TextEdit(document.columns.range(file.between(starts[begin], starts[end])), "".join(after[first:last]))
+        for change, begin, end, first, last in changes
+        if change != "equal"
+    ]
 
 
 def workspace_edit(

@@ -11,10 +11,9 @@ from linkforge_compile.analysis import Analysis, Settings, analyse_path
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.fixing import apply_safe_fixes, is_proven
-from linkforge_compile.lsp.changes import MakeEdit, changes_of
+from linkforge_compile.lsp.changes import MakeEdit, changes_of, edits_to
 from linkforge_compile.lsp.convert import uri_of
 from linkforge_compile.lsp.diagnostics import report_of
-from linkforge_compile.lsp.formatting import edits_to
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import identity
 from linkforge_compile.syntax.ignore_comments import ignore_fix

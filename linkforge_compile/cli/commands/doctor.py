@@ -18,6 +18,7 @@ from linkforge_compile.paths import (
     packages_in_environment,
     searched_places,
     shortest,
+    split_package_path,
 )
 from linkforge_compile.roots import ANYWHERE, exists
 
@@ -40,7 +41,6 @@ examples:
 
 _MOST_NAMES = 12
 _SPEC_ENDINGS = {".yaml", ".yml", ".urdf", ".xacro", ".xml"}
-_PATH = re.compile(r"package://([\w.-]+)/?(.*)")
 _NAMED = re.compile(r"package://([\w.-]+)|\$\(find ([\w.-]+)\)")
 _VARIABLES = ("LINKFORGE_BROWSER", "LINKFORGE_DEBUG", "LINKFORGE_LIMITS", "LINKFORGE_NO_XACRO")
 
@@ -160,10 +160,11 @@ def _about_viewer() -> str:
 
 def _about_package(word: str, search: _Search) -> tuple[list[str], bool]:
     """Return where a package, or a path in one, was looked for, and whether it was found."""
-    match = _PATH.fullmatch(word)
-    if match is None and not re.fullmatch(r"[\w.-]+", word):
+    is_path = word.startswith("package://")
+    parts = split_package_path(word.removeprefix("package://"))
+    if parts is None or (parts[1] and not is_path):
         raise UsageError(f"takes a spec, a package or package://NAME/PATH, found '{word}'")
-    name, path = match.groups() if match else (word, "")
+    name, path = parts
     places = list(searched_places(name, search.declared, search.start, ANYWHERE))
     used, folder = next(((place, place.folder) for place in places if place.folder), (None, None))
     lines = [f"package {name}: {folder.absolute() if folder else 'not found'}"]
