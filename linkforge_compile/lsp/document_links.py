@@ -1,4 +1,4 @@
-"""Link the paths in a spec to their files: modules, includes, data, meshes and textures."""
+"""Link the paths in a spec to their files: modules with their macros, includes, data, meshes and textures."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.load import Loader, SpecFile
 from linkforge_compile.load.locations import PathSite, locate
+from linkforge_compile.load.xacro_library import read_library
 from linkforge_compile.lsp.convert import uri_of
 from linkforge_compile.lsp.placed import leaves_in, placed_in
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import exists, identity
 from linkforge_compile.schema.descriptions import described_at
 from linkforge_compile.source import Position, Span
-from linkforge_compile.syntax import YamlScalar, has_expression
+from linkforge_compile.syntax import YamlMap, YamlScalar, has_expression
 
 _FILE = "a file name"
 
@@ -38,6 +39,32 @@ def files_at(document: Document, at: Position, settings: Settings) -> list[types
     place = document.columns.position(document.file, at)
     here = (link for link in document_links(document, settings) if link.range.start <= place <= link.range.end)
     return [types.Location(link.target, start) for link in here if link.target]
+
+
+def macros_at(document: Document, at: Position, settings: Settings) -> list[types.Location]:
+    """Return where the macro of a xacro is defined that a module names at a position; none for other text."""
+    user, packages = _spec_of(document)
+    entries = user.tree.section("modules").values() if user else ()
+    for fields in (entry.value for entry in entries):
+        use, macro = (fields.get(key) if isinstance(fields, YamlMap) else None for key in ("use", "macro"))
+        is_here = isinstance(macro, YamlScalar) and document.holds(macro.span)
+        if user and is_here and isinstance(use, YamlScalar) and macro and macro.span.start <= at <= macro.span.end:
+            site = PathSite(use.text, use.span, user, packages)
+            return _macro(document, site, macro.span.text or "", settings.loader(document.path))
+    return []
+
+
+def _macro(document: Document, site: PathSite, name: str, loader: Loader) -> list[types.Location]:
+    sink = Diagnostics()
+    try:
+        target = locate(site, loader, sink)
+        library = read_library(target.path, loader, sink, site.used) if target else None
+    except BeyondLimitError:
+        return []
+    macro = library.macros.get(name.strip("'\"")) if library else None
+    attribute = macro.element.attributes.get("name") if macro else None
+    location = document.columns.location(attribute.span) if attribute else None
+    return [location] if location else []
 
 
 def _spec_of(document: Document) -> tuple[SpecFile | None, Mapping[str, Path]]:

@@ -188,7 +188,7 @@ WORDS_AND_NAMES = (
         "    type: revolute\n    parent: base",
     ),
     Case(
-        ARM, "    parent: base\n", "    parent: ¦\n", "base upper lower tool0", "shoulder", "base", "    parent: base\n"
+        ARM, "    parent: base\n", "    parent: ¦\n", "base", "shoulder upper lower tool0", "base", "    parent: base\n"
     ),
     Case(ARM, "    child: lower\n", "    child: lo¦\n", "lower", "", "lower", "    child: lower\n"),
     Case(ARM, "    parent: lower\n", '    parent: "¦"\n', "base lower", "", "lower", '    parent: "lower"\n'),
@@ -248,8 +248,8 @@ WORDS_AND_NAMES = (
         MOBILE,
         "torso_joint: {type: fixed, parent: deck",
         "torso_joint: {type: fixed, parent: ¦",
-        "torso deck left_tool0 right_gripper_palm",
-        "tool0",
+        "deck base_link front_caster",
+        "torso left_tool0 right_gripper_palm tool0",
         "deck",
         "torso_joint: {type: fixed, parent: deck",
     ),
@@ -418,8 +418,8 @@ MODULES = (
         VENDOR,
         "    parent: arm_tool0\n",
         "    parent: ¦\n",
-        "pedestal arm_tool0 gripper_robotiq_85_base_link",
-        "tool0",
+        "pedestal arm_tool0",
+        "tool0 gripper_robotiq_85_base_link",
         "arm_tool0",
         "    parent: arm_tool0\n",
     ),
@@ -503,8 +503,8 @@ MALFORMED = (
         ARM,
         "joints:\n  shoulder:\n    type: revolute\n    parent: base\n",
         "joints: [\n  shoulder:\n    type: revolute\n    parent: ¦\n",
-        "base upper",
-        "",
+        "base",
+        "upper",
     ),
     Case(
         MOBILE,

@@ -289,7 +289,7 @@ def test_values_of_an_override_are_names_of_the_module(tmp_path: Path, value: st
     assert not {"forearm", "left_finger", "world"} & set(labels), labels
 
 
-def test_a_state_offers_the_joints_of_its_group_first(editor: Editor, tmp_path: Path):
+def test_a_state_offers_the_joints_of_its_group(editor: Editor, tmp_path: Path):
     links = "".join(f"  l{number}: {{}}\n" for number in range(5))
     joints = "".join(
         f"  {name}: {{type: continuous, parent: l{number}, child: l{number + 1}}}\n"
@@ -301,7 +301,19 @@ def test_a_state_offers_the_joints_of_its_group_first(editor: Editor, tmp_path: 
     file = tmp_path / "r.robot.yaml"
     editor.open(file, text.replace("¦", ""))
     editor.diagnostics(file)
-    assert [label for label in labels_at(editor, file, text) if label in "abcd"] == ["c", "d", "a", "b"]
+    assert [label for label in labels_at(editor, file, text) if label in "abcd"] == ["c", "d"]
+
+
+def test_a_joint_offers_links_with_which_the_robot_stays_a_tree(editor: Editor, tmp_path: Path):
+    """Neither its own child, nor what is below that, nor a link that another joint has as its child."""
+    joints = "joints:\n  a: {type: fixed, parent: one, child: two}\n  b: {type: fixed, parent: two, child: three}\n"
+    text = f"linkforge: 1\nname: r\nlinks: {{one: , two: , three: , four: }}\n{joints}"
+    file = tmp_path / "r.robot.yaml"
+    editor.open(file, text)
+    editor.diagnostics(file)
+    assert labels_at(editor, file, text.replace("parent: one", "parent: ¦")) == ["one", "four"]
+    assert labels_at(editor, file, text.replace("child: two", "child: ¦")) == ["two", "four"]
+    assert labels_at(editor, file, text + "  c: {type: fixed, parent: three, child: ¦}\n") == ["one", "four"]
 
 
 @pytest.mark.parametrize("value", ["$(¦)", "$(r¦"])

@@ -62,6 +62,20 @@ def definition(editor: Editor, path: Path, marked: str) -> list[str]:
     return shown(editor.ask(lambda client: client.text_document_definition_async(params)))
 
 
+def test_a_macro_leads_to_its_definition(editor: Editor, tmp_path: Path):
+    """Also to one in a file that the xacro includes."""
+    root = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n{}\n</robot>'
+    macro = '<xacro:macro name="wheel" params="prefix"><link name="${prefix}rim"/></xacro:macro>'
+    (tmp_path / "wheel.xacro").write_text(root.format(macro))
+    (tmp_path / "parts.xacro").write_text(root.format('<xacro:include filename="wheel.xacro"/>'))
+    entry = (
+        "linkforge: 1\nname: cart\nlinks: {base: }\nmodules:\n  left: {use: parts.xacro, macro: whe¦el, parent: base}\n"
+    )
+    assert definition(editor, tmp_path / "cart.robot.yaml", entry) == ["wheel:2:wheel"]
+    unknown = entry.replace("whe¦el", "whe¦l")
+    assert definition(editor, tmp_path / "cart.robot.yaml", unknown) == []
+
+
 def references(editor: Editor, path: Path, marked: str) -> list[str]:
     text, position = split_at_cursor(marked)
     document = editor.open(path, text)

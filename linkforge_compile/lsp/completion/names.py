@@ -99,7 +99,8 @@ def keys_that_name(context: Context) -> list[tuple[str, str]]:
     if context.robot is None or path[:2] != _STATES or len(path) != len(_STATES) + 2:
         return found
     joints = _joints_moved_by(str(path[2]), context.robot)
-    found.sort(key=lambda one: one[0] not in joints)
+    if joints:  # a new group has none yet
+        found = [one for one in found if one[0] in joints]
     return [*_parts_of_group(str(path[2]), context.robot), *found]
 
 

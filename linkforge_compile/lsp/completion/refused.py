@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkforge_compile.core.models.graph import child_joints, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.lsp.completion.context import Context
@@ -21,9 +22,32 @@ def refused_names(context: Context, path: tuple[str | int, ...]) -> frozenset[st
             return frozenset({beside.get("group", "")})
         case ("semantic", "group_states", _, _):
             return frozenset(_without_own_position(context.robot))
+        case ("joints", str(joint), "parent"):
+            child = beside.get("child", "")
+            return frozenset({child, *_below(child, context.robot)})
+        case ("joints", str(joint), "child"):
+            joints = context.robot.joints if context.robot else ()
+            taken = (one.child for one in joints if one.name != joint)
+            return frozenset({beside.get("parent", ""), *taken})
+        case ("modules", str(module), "parent"):
+            return frozenset(_links_of(module, context.robot))
+        case ("frames", str(frame), "parent"):
+            return frozenset({frame, *_below(frame, context.robot)})
         case ("joints" | "mount", str(joint), "mimic", "joint"):
             return frozenset({joint, *_no_leaders(joint, context.robot)})
     return frozenset()
+
+
+def _below(link: str, robot: Robot | None) -> Iterator[str]:
+    """Yield the links below a link: a joint from one of them to the link would close a cycle."""
+    yield from (joint.child for joint in walk_down([link], child_joints(robot.joints))) if robot else ()
+
+
+def _links_of(module: str, robot: Robot | None) -> Iterator[str]:
+    """Yield the links of a module."""
+    for link in robot.links if robot else ():
+        if link.source and link.source.modules[:1] == (module,):
+            yield link.name
 
 
 def _around_group(name: str, robot: Robot | None) -> Iterator[str]:
