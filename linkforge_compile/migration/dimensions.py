@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ast
+import copy
 from collections.abc import Iterable
 
-from linkforge_compile.migration.symbols import NUMBER, Reference, Symbol, symbols_in
+from linkforge_compile.migration.symbols import NUMBER, Part, Parts, Reference, Symbol, constant, sources_of, symbols_in
 
 Placement = tuple[ast.expr, str]
 """An expression and the dimension of the field that it is written to, "" for another one, "number" for none."""
@@ -34,6 +35,53 @@ def _fits(node: ast.expr, field: str) -> bool:
     except _RefusedError:
         return False
     return dimension in ("", field)
+
+
+def without_angles(parts: Parts) -> Parts:
+    """Return a text in which numbers stand for the angles that `radians()` gives, also in the variables that it names.
+
+    In a xacro these are numbers, which may be anything, such as the velocity `${radians(180)}`.
+    """
+    if not any(isinstance(part, ast.AST) and _has_angles(part) for part in parts):
+        return parts
+    return tuple(_plain(part) for part in parts)
+
+
+def _has_angles(node: ast.AST) -> bool:
+    values = (part for symbol in sources_of(symbols_in(node)) for part in symbol.value or ())
+    nodes = [node, *(part for part in values if isinstance(part, ast.AST))]
+    return any(_is_angle(one) for part in nodes for one in ast.walk(part))
+
+
+def _is_angle(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "radians"
+
+
+def _plain(part: Part) -> Part:
+    if isinstance(part, str):
+        return part
+    node = _WithoutAngles().visit(copy.deepcopy(part))
+    assert isinstance(node, ast.expr), "an expression is replaced by one"
+    return node
+
+
+class _WithoutAngles(ast.NodeTransformer):
+    def visit_Call(self, found: ast.Call) -> ast.AST:
+        self.generic_visit(found)
+        if not _is_angle(found):
+            return found
+        product = ast.BinOp(left=found.args[0], op=ast.Mult(), right=ast.Name(id="pi", ctx=ast.Load()))
+        return ast.BinOp(left=product, op=ast.Div(), right=constant(180))
+
+    def visit_Reference(self, found: Reference) -> ast.AST:
+        symbol = found.symbol
+        if (
+            symbol.role == "variable"
+            and symbol.value
+            and any(_has_angles(part) for part in symbol.value if isinstance(part, ast.AST))
+        ):
+            symbol.value = tuple(_plain(part) for part in symbol.value)
+        return found
 
 
 def _of(symbol: Symbol) -> str:

@@ -210,18 +210,17 @@ _RESULTS = {**dict.fromkeys(("str", "join", "path"), TEXT), "split": VECTOR}
 """What functions give that give no number."""
 
 
+_KINDS: dict[type, str] = {bool: BOOLEAN, int: NUMBER, float: NUMBER, str: TEXT, dict: MAP}
+
+
 def kind_of(node: ast.expr) -> str:
     """Return what an expression gives: a number, a boolean, a text, or unknown."""
     literal = literal_of(node)
     match node:
         case Reference():
             return node.symbol.kind
-        case _ if isinstance(literal, bool):
-            return BOOLEAN
-        case _ if isinstance(literal, int | float):
-            return NUMBER
-        case _ if isinstance(literal, str):
-            return TEXT
+        case _ if type(literal) in _KINDS:
+            return _KINDS[type(literal)]
         case ast.Compare() | ast.BoolOp() | ast.UnaryOp(op=ast.Not()):
             return BOOLEAN
         case ast.UnaryOp():

@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from linkforge_compile.migration.conditions import WORDS, Outcomes, decided, holds
 from linkforge_compile.migration.constants import constant_of, example_of
-from linkforge_compile.migration.dimensions import Placement
+from linkforge_compile.migration.dimensions import Placement, without_angles
 from linkforge_compile.migration.logic import folded
 from linkforge_compile.migration.placeholders import Placeholders, key_of
 from linkforge_compile.migration.symbols import (
@@ -59,6 +59,15 @@ NUMBERS: Mapping[tuple[str, str], tuple[int, str]] = {
     **{("calibration", edge): (1, "") for edge in ("rising", "falling")},
 }
 """Attributes that are numbers: how many, and their dimension if that is always the same."""
+
+_ANGLES = frozenset(
+    (
+        *(("origin", "rpy"), ("limit", "lower"), ("limit", "upper"), ("mimic", "offset")),
+        *(("safety_controller", f"soft_{end}_limit") for end in ("lower", "upper")),
+        *(("calibration", edge) for edge in ("rising", "falling")),
+    )
+)
+"""Those that are an angle, of some types of joints."""
 
 _NAMES = frozenset(("name", "link", "joint", "reference"))
 _PLUGINS = frozenset(("gazebo", "ros2_control", "transmission"))
@@ -115,7 +124,7 @@ class Writer:
 
     def _attribute(self, key: tuple[str, str], parts: Parts, outcomes: Outcomes, *, is_plugin: bool) -> str:
         if not is_plugin and key in NUMBERS:
-            return self._numbers(parts, *NUMBERS[key])
+            return self._numbers(parts if key in _ANGLES else without_angles(parts), *NUMBERS[key])
         if key in WORDS:
             return str(constant_of(decided(as_expression(canonical(parts)), outcomes)))
         if key[1] in _NAMES:

@@ -172,3 +172,35 @@ def test_an_inertia_that_data_always_have_has_no_alternative_without_it(tmp_path
     module = migrated(tmp_path, text).files["part.robot.yaml"]
     assert "when: $(base_name in inertials)\n" in module
     assert "extra" not in module
+
+
+JOINTS = """
+<link name="base"/>
+<xacro:macro name="part" params="name limits">
+  <link name="${name}"/>
+  <joint name="${name}_joint" type="revolute">
+    <parent link="base"/><child link="${name}"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="${radians(limits[name]['upper'])}" effort="1" velocity="${radians(limits[name]['speed'])}"/>
+  </joint>
+</xacro:macro>
+<xacro:part name="left" limits="${limits}"/><xacro:part name="right" limits="${limits}"/>
+"""
+
+
+def test_a_map_is_given_to_a_module_as_one_and_radians_of_a_velocity_are_no_angle(tmp_path: Path):
+    both = "dict(left=dict(upper=90, speed=180), right=dict(upper=45, speed=100))"
+    made = migrated(tmp_path, f'<xacro:property name="limits" value="${{{both}}}"/>{JOINTS}')
+    part = made.files["part.robot.yaml"]
+    assert "limits: {type: map}" in part
+    assert "upper: $(radians(limits[base_name].upper))" in part
+    assert "velocity: $(limits[base_name].speed * pi / 180)" in part
+
+
+def test_a_variable_that_is_a_velocity_is_no_angle(tmp_path: Path):
+    text = """
+<xacro:arg name="speed" default="90"/>
+<xacro:property name="velocity" value="${radians($(arg speed))}"/>
+<link name="base"/><link name="tip"/>
+<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+  <limit lower="${-velocity / 2}" upper="1" effort="1" velocity="${velocity * 2}"/></joint>"""
+    assert "velocity: $(speed * pi / 180)\n" in migrated(tmp_path, text).robot
