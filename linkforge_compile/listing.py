@@ -114,7 +114,7 @@ def list_parameters(spec: SpecFile, loader: Loader, sink: Diagnostics) -> Listin
 def list_used(spec: SpecFile, loader: Loader) -> dict[str, Listing]:
     """List what each spec or xacro that a file uses declares, by the text of `use`, whether or not its `when` holds.
 
-    A file that cannot be read is left out, as is a computed `use`; compiling reports them.
+    A file that cannot be read is omitted, as is a computed `use`; compiling reports them.
     """
     scope = scope_without_arguments(spec, loader, Diagnostics())
     listed: dict[str, Listing | None] = {}

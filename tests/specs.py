@@ -10,7 +10,7 @@ from linkforge_compile.schema.registry import definitions_with_patches
 Strategy = st.SearchStrategy
 
 RAW = frozenset({"extra", "extra_attributes", "extra_inside"})
-"""Keys whose values may be any well-formed XML, which readers of URDF may reject."""
+"""Keys whose values may be any well-formed XML, which URDF readers may reject."""
 
 _USES_OTHER_FILES = frozenset({"modules", "include", "data", "packages", "mount"})
 _MAX_DEPTH = 6

@@ -63,7 +63,7 @@ THERE_ALREADY = "the key is there already, and would be written twice"
 
 WITHOUT_FIX = {
     # code, or code and case: why its hint has no fix
-    **dict.fromkeys(("LF3010", "LF3021", "LF3030", "LF3092", "LF3093", "LF3110", "LF5005", "LF7007"), OF_THE_USER),
+    **dict.fromkeys(("LF3010", "LF3021", "LF3030", "LF3092", "LF3093", "LF3110", "LF5005"), OF_THE_USER),
     **dict.fromkeys(
         ("LF1201", "LF1202 LF1275_ignore_written_otherwise", "LF1275 LF1275_ignore_written_otherwise"), OF_THE_USER
     ),

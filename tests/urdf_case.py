@@ -18,7 +18,7 @@ def expected_in_xml(file: str, text: str) -> Iterator[Finding]:
 def check_urdf_case(path: Path) -> None:
     """Import a URDF file, with the SRDF of its name if any, and compare its diagnostics with the expected ones.
 
-    Compiling a file reports what readers of URDF reject, importing it does not.
+    Compiling a file reports what URDF readers reject, importing it does not.
     """
     is_compiled = path.parent.name == "refused_urdf"
     result = check_file(path) if is_compiled else import_urdf(path, srdf=srdf_of(path))

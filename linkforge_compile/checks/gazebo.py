@@ -147,7 +147,7 @@ class _Tag(NamedTuple):
 def check_tags_of_several_blocks(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
     """The Gazebo blocks of a link or joint, and a link's `physics`, do not contradict one another.
 
-    Of a tag in two of them Gazebo takes the last one, with a line in its log at best. Write it once.
+    Of a tag in two of them Gazebo uses the last one, with a line in its log at best. Write it once.
     """
     if not robot.gazebo_elements:
         return

@@ -175,7 +175,7 @@ class LinkSets:
     def of_groups(self) -> Mapping[str, int]:
         """The set of links that each group moves, and with them its joints: a link hangs on one joint.
 
-        Groups with an unknown name are left out, and all groups while they contain one another in a cycle.
+        Groups with an unknown name are omitted, and all groups while they contain one another in a cycle.
         """
         groups = {group.name: group for group in reversed(tuple(self._robot.semantic.groups))}
         try:

@@ -46,7 +46,7 @@ _CORNER = re.compile(rb"^[ \t]*v(?:ertex)?[ \t]+(\S{1,40})[ \t]+(\S{1,40})[ \t]+
 
 
 class MeshScan(NamedTuple):
-    """What a scan of a file finds: the reason why it holds no shape, the number of its triangles, and a box.
+    """What a scan of a file finds: the reason why it contains no shape, the number of its triangles, and a box.
 
     The box is that of corners from all over the file, in the unit of the file. None is for what a scan cannot find.
     """

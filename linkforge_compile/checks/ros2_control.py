@@ -226,12 +226,12 @@ def _far_beyond(interface: Interface, joint: Joint, lowest: float, highest: floa
         remedy = in_si = "correct one of them"
     elif units is _SLIDING:
         new = f"$({shown} / 1000)"
-        remedy = f"write '{new}' if millimetres are meant"
-        in_si = f"write '{found / 1000:.6g}' if millimetres are meant"
+        remedy = f"write '{new}' if you mean millimetres"
+        in_si = f"write '{found / 1000:.6g}' if you mean millimetres"
     else:
         new = f"$(radians({shown}))"
-        remedy = f"write '{new}' if degrees are meant"
-        in_si = f"write '{math.radians(found):.6g}' if degrees are meant"
+        remedy = f"write '{new}' if you mean degrees"
+        in_si = f"write '{math.radians(found):.6g}' if you mean degrees"
     fault = _at(interface, parameter).report(
         RANGE_FAR_BEYOND,
         interface=f"interface '{interface.name}'",

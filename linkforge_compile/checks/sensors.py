@@ -124,7 +124,7 @@ def check_shared_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic
     """Sensors publish on different topics.
 
     Readers get the messages of both in turn and cannot tell them apart; of two kinds of message one is lost.
-    Give each sensor a topic of its own. A relative topic in a module takes the prefix of its use, an absolute
+    Give each sensor a topic of its own. A relative topic in a module gets the prefix of its use, an absolute
     one (`/camera`) does not, and is reported for each import of the module.
     """
     first: dict[str, Reference] = {}

@@ -31,7 +31,7 @@ from linkforge_compile.source import Key
 CAD_FORMATS = frozenset(
     ("step", "stp", "iges", "igs", "sldprt", "sldasm", "ipt", "iam", "catpart", "catproduct", "f3d", "3dm", "fcstd")
 )
-"""Endings of CAD files, which no reader of URDF loads."""
+"""Endings of CAD files, which no URDF reader loads."""
 
 MAX_SINGLE_FILES = 100
 """How many missing files of existing folders are reported one by one; the rest is reported by folder."""

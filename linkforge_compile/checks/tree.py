@@ -27,7 +27,7 @@ _USUAL_ROOT = "base_link"
 def check_links(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:
     """A robot has at least one link.
 
-    No reader of URDF accepts a robot without links. Declare one under `links`, or use a module that has some.
+    No URDF reader accepts a robot without links. Declare one under `links`, or use a module that has some.
     """
     if not robot.links and not unresolved:
         yield NO_LINKS.at(robot.source, "links", robot=robot.name)

@@ -68,7 +68,7 @@ class GitTree(NamedTuple):
         """Return the end of a message about a missing copy that lies in a submodule; empty for another."""
         path = PurePosixPath(copy.relative_to(self.copy).as_posix())
         module = next((one for one in (path, *path.parents) if one in self.submodules), None)
-        return f"; submodules, here '{module}', are left out" if module else ""
+        return f"; submodules, here '{module}', are omitted" if module else ""
 
     def packages(self) -> dict[str, Path]:
         """Return the copies of packages that the environment finds in the repository, by name.
@@ -107,7 +107,7 @@ class GitTree(NamedTuple):
 def copied_tree(revision: str, spec: str) -> Iterator[GitTree]:
     """Copy the files of a revision of the repository that holds a spec; remove the copy at the end.
 
-    Submodules are left out. UsageError without git, a repository or the revision, and for a spec that it lacks.
+    Submodules are omitted. UsageError without git, a repository or the revision, and for a spec that it lacks.
     """
     folder = Path(spec).parent
     if not folder.is_dir():

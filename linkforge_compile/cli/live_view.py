@@ -97,7 +97,7 @@ def _make_server(session: Session, port: int) -> ViewServer:
     except NoPageError as error:
         raise UsageError(str(error)) from error
     except OSError as error:
-        raise UsageError(f"--port {port}: {error.strerror}; leave it out for any free port") from error
+        raise UsageError(f"--port {port}: {error.strerror}; omit it to use any free port") from error
 
 
 def _announce(server: ViewServer, arguments: argparse.Namespace) -> None:

@@ -23,7 +23,7 @@ _STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 class Targets(NamedTuple):
     """The target of each format, by the format's name; None for standard output.
 
-    Formats that the robot has nothing for are left out unless `is_requested`, by `--format` or by name of a file. With
+    Formats that the robot has nothing for are omitted unless `is_requested`, by `--format` or by name of a file. With
     `are_documents`, the targets are those of the documents of a folder of templates, by the document's name.
     """
 

@@ -44,7 +44,7 @@ def load_mesh(path: Path, scale: NDArray[np.float64]) -> BVHModelBase:
     """Return the triangles of a mesh; no other file is opened, as the loader of coal would do for materials.
 
     Raises:
-        MeshError: The file holds no shape.
+        MeshError: The file contains no shape.
         UnreadableError: The file cannot be read.
 
     """

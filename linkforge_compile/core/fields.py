@@ -54,7 +54,7 @@ class Spec:
     `xml` is an XPath from the element in XML, `@lower` or `mass/@value`: where none is given, the attribute or child
     element of the field's name; empty where the value has no place of its own.
     `example` is what to write where the language requires the field, by motion if that matters; empty where it does
-    not require it. `is_required_in_urdf` is whether readers of URDF refuse the element without it.
+    not require it. `is_required_in_urdf` is whether URDF readers refuse the element without it.
 
     `field_specs` fills in the rest. `implied` is the value of a field that is not written: the default of its class,
     None for a required one. `may_be_none` and `container` (None, Sequence or Mapping) follow from the annotation.
@@ -109,7 +109,7 @@ class Text(Spec):
 
 @dataclass(frozen=True)
 class Name(Text):
-    """The element's own name, which takes the prefix; in the language mostly the key of the map around it."""
+    """The element's own name, which gets the prefix; in the language mostly the key of the map around it."""
 
     key: str | None = ""
 
@@ -119,7 +119,7 @@ class Reference(Text):
     """The name of another element, with the prefix; a sequence of names, or a mapping by names.
 
     `to` is the kind of what is named: link, joint, part (a link or joint), collision, group, sensor, frame or topic.
-    Absolute topics take no prefix.
+    Absolute topics get no prefix.
     """
 
     to: str = ""
@@ -188,7 +188,7 @@ class _Described(NamedTuple):
 
 
 def field_specs(kind: type) -> Mapping[str, Spec]:
-    """Return the specs of the fields of a model class, in their order; fields without one are left out."""
+    """Return the specs of the fields of a model class, in their order; fields without one are omitted."""
     return _describe(kind).specs
 
 

@@ -20,7 +20,7 @@ def leave_out(ref: SourceRef | None, *path: str | int) -> Fix | None:
 
     So it is in a URDF, in the value of an expression, and where the lines have something else.
     """
-    return leave_out_all(ref, [path], f"leave out '{path[-1]}'")
+    return leave_out_all(ref, [path], f"remove '{path[-1]}'")
 
 
 def leave_out_all(ref: SourceRef | None, paths: Iterable[Sequence[str | int]], title: str) -> Fix | None:
@@ -39,7 +39,7 @@ def leave_out_entry(key: Span, value: Span | None) -> Fix | None:
     if value is None:
         colon = _COLON.match(key.file.counted, key.file.index_of(*key.end))
         value = key._replace(end_column=key.end_column + len(colon[0])) if colon else key
-    return _removal([_place_of(key, value)], f"leave out '{key.text}'", is_item=False)
+    return _removal([_place_of(key, value)], f"remove '{key.text}'", is_item=False)
 
 
 def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:

@@ -76,7 +76,7 @@ class Replacement(NamedTuple):
         text = span.file.counted[begin:end]
         if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
             return None
-        title = f"write '{self.new}'" if self.new else f"leave out '{self.old}'"
+        title = f"write '{self.new}'" if self.new else f"remove '{self.old}'"
         quote = text[0] if text and text[0] in _QUOTES else ""
         if not self.old or self.is_whole:
             if self.old not in (text, text.strip(quote), ""):

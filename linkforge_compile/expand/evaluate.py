@@ -127,7 +127,7 @@ class Evaluator:
 
     @property
     def silent(self) -> Evaluator:
-        """An evaluator that reports nothing, for parts that are left out of the robot."""
+        """An evaluator that reports nothing, for parts that are omitted from the robot."""
         return replace(self, sink=Diagnostics(), expressions=Expressions(self.expressions.budget))
 
     def scope_of(self, scalar: YamlScalar) -> Scope:

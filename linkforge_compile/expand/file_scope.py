@@ -275,7 +275,7 @@ class FileScope:
         if not _NAME.fullmatch(key.text):
             self._sink.report(INVALID_VARIABLE_NAME.at(key.span, name=key.text, kind=kind))
         elif key.text in RESERVED_NAMES:
-            notes = [Note("names take the prefix of their use by themselves")] if key.text == "prefix" else []
+            notes = [Note("names get the prefix of their use automatically")] if key.text == "prefix" else []
             self._sink.report(RESERVED_NAME.at(key.span, name=key.text, kind=kind, notes=notes))
         else:
             return True

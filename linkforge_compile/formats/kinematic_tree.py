@@ -28,7 +28,7 @@ class KinematicTree(NamedTuple):
     """The links of a robot, each before those below it, depth first.
 
     `above` has the joint that holds a link, `fixed` the fixed joints by parent. A joint to a link that has one already
-    is left out. The world is no body, so it is not among the nodes that hold others.
+    is omitted. The world is no body, so it is not among the nodes that hold others.
     """
 
     nodes: Sequence[Node]

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Loss(NamedTuple):
-    """What kind of part is left out, the name of the part that has it, and its place."""
+    """What kind of part is omitted, the name of the part that has it, and its place."""
 
     parts: str
     name: str

@@ -53,7 +53,7 @@ def texture_paths(robot: Robot) -> Iterator[TexturePath]:
 def places_of_files(robot: Robot, files: Iterable[MeshPath | TexturePath]) -> tuple[Path, ...]:
     """Return the absolute paths of files, of missing ones where they would be.
 
-    One of a package that is not found may be in many places, and is left out.
+    One of a package that is not found may be in many places, and is omitted.
     """
     places = (file.path or _place_of_missing(robot, file.resource) for file in files)
     return tuple(dict.fromkeys(filter(None, places)))

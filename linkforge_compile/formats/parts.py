@@ -59,7 +59,7 @@ def doubtful_parts_of_urdf(robot: Robot) -> Doubtful:
 def doubtful_parts_in(*sections: object) -> Doubtful:
     """Return such parts among parts, or collections of them, and what is in these, `extra_inside` among them.
 
-    Those of numbers and plain texts alone, which are nearly all, are left out: XML can write every one of these.
+    Those of numbers and plain texts alone, which are nearly all, are omitted: XML can write every one of these.
     """
     found = Doubtful([], [])
     for section in sections:

@@ -25,7 +25,7 @@ def render(
     """Return the robot in a format of a single file, by the name that `linkforge formats` lists.
 
     `options` are those of the format, such as `{"base": "free"}`, and the other words those of `render_urdf`. What the
-    format cannot hold is left out; `compile_file(..., formats=["mjcf"])` reports it.
+    format cannot hold is omitted; `compile_file(..., formats=["mjcf"])` reports it.
 
     Raises:
         RobotGeneratorError: for a robot that the format cannot hold.
@@ -76,7 +76,7 @@ def render_urdf(
     """Return the robot as a URDF document: materials, links, joints, transmissions, ros2_control, Gazebo, in its order.
 
     `pretty` indents by two spaces; without it the document is one line. `banner` becomes a comment at the top, None
-    for none. `gazebo` is the dialect of the sensors: Gazebo Sim, or Classic. What URDF cannot say is left out;
+    for none. `gazebo` is the dialect of the sensors: Gazebo Sim, or Classic. What URDF cannot say is omitted;
     `URDF.limits` reports it. `templates` is a folder whose `urdf/` has templates that replace linkforge's own.
 
     Raises:

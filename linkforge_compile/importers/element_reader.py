@@ -40,7 +40,7 @@ _WITHOUT_A_NUMBER = {
 """What urdfdom does after a number that it cannot read, by the tag of its element."""
 
 _MAX_TEXT = 40
-"""Characters shown of a text that is left out."""
+"""Characters shown of a text that is omitted."""
 
 
 class ElementReader:

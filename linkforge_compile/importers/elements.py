@@ -54,7 +54,7 @@ def read_element(
 ) -> YamlMap:
     """Read an element of a class. `first` has entries that are read and come first, `readers` read other fields by key.
 
-    It cannot be represented without what readers of URDF or the language require, or with a reference to an unknown
+    It cannot be represented without what URDF readers or the language require, or with a reference to an unknown
     name.
     """
     require_parts(reader, kind, without=first)
@@ -253,7 +253,7 @@ def _require_bound(reader: ElementReader, name: str, spec: Number | Vector, writ
 
 
 def _read_colour(colour: ElementReader) -> YamlNode:
-    """Read the four numbers of a colour, of which an opacity of 1 is left out."""
+    """Read the four numbers of a colour, of which an opacity of 1 is omitted."""
     colour.require_attributes(["rgba"])
     rgba = colour.numbers("rgba", 4)
     assert rgba

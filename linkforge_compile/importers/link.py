@@ -132,7 +132,7 @@ def read_joint(joint: ElementReader, names: Names, blocks: Blocks) -> YamlMap:
     """Read a joint whose name is taken, with the Gazebo blocks about it; `names` has those of all joints."""
     kind = joint.required_text("type")
     if kind.text not in JOINT_TYPES:
-        raise joint.cannot_represent(f"there is no type of joint named '{kind.text}'")
+        raise joint.cannot_represent(f"there is no joint type named '{kind.text}'")
     joint_type = JointType(kind.text)
     return read_element(
         joint,

@@ -1,7 +1,7 @@
 """Find what an import loses: compare a document with the one that its spec compiles to, in a canonical form.
 
 In that form, elements with the same meaning have the same number: order and spelling do not matter, defaults such as
-the identity pose are left out, and a named material has the content that the robot declares for the name. Numbers
+the identity pose are omitted, and a named material has the content that the robot declares for the name. Numbers
 that the formats define are compared as doubles, all other values as text with normalized space.
 """
 

@@ -1,4 +1,4 @@
-"""Find what the readers of URDF refuse.
+"""Find what URDF readers refuse.
 
 urdfdom refuses a whole robot for a faulty joint or a duplicate name, and skips the rest of a link after a fault in it;
 MuJoCo refuses the robot for either. Readers read only the first element of a tag, except visuals and collisions.

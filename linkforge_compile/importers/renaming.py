@@ -1,4 +1,4 @@
-"""Replace characters in the names of a document that readers of URDF accept and the language does not, such as spaces.
+"""Replace characters in the names of a document that URDF readers accept and the language does not, such as spaces.
 
 TF, topics and interfaces of ros2_control do not have them either. A name is replaced wherever it is a whole value or a
 whole text, also in what plugins read; each character becomes one `_`, or another one where that name is taken.

@@ -84,7 +84,7 @@ def find_commanded_again(robot: XmlElement) -> dict[XmlElement, CannotRepresentE
                 name = f"{part.get('name')}/{interface.get('name')}"
                 owner = first.setdefault(name, control)
                 if owner is not control:
-                    reason = f"'{name}' is commanded by ros2_control '{owner.get('name')}' already"
+                    reason = f"'{name}' is already commanded by ros2_control '{owner.get('name')}'"
                     found[interface] = CannotRepresentError(reason, interface.span)
     return found
 

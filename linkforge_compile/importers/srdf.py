@@ -72,7 +72,7 @@ def read_srdf(
 ) -> Imported:
     """Read an SRDF document for a robot's spec, as a tree with the section `semantic` only.
 
-    The tree has all of its content, in the language's words or as raw XML; what is left out is reported.
+    The tree has all of its content, in the language's words or as raw XML; what is omitted is reported.
     """
     robot, root = urdf.tree, document.root
     draft = SpecDraft(refused, renamed=urdf.renamed)

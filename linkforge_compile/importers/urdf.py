@@ -46,8 +46,8 @@ def read_urdf(
 ) -> Imported | None:
     """Read a URDF document; None where it is none, which is reported.
 
-    The tree has all of its content, in the language's words or as raw XML; what is left out is reported. `moved` gives
-    elements the places in which they were written. What readers of URDF refuse is reported as an error and at fault in
+    The tree has all of its content, in the language's words or as raw XML; what is omitted is reported. `moved` gives
+    elements the places in which they were written. What URDF readers refuse is reported as an error and at fault in
     the tree, unless `keeps_refused`: then it becomes raw XML, for a tree that is written as a spec. `package_paths` are
     written as expressions. `outside` is given for a document that is merged with others, the names of links and joints
     that it may name: in such a one, links and joints are no frames, and nothing is shortened to a word that stands for

@@ -321,4 +321,4 @@ _READ: dict[str, Callable[[Fields, str], str | None]] = {
     "preserveFixedJoint": _flag,
     "disableFixedJointLumping": _flag,
 }
-"""The tags of SDFormat's reader of URDF that are keys under their own names, and how each is read."""
+"""The tags of SDFormat's URDF reader that are keys under their own names, and how each is read."""

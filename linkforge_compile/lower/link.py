@@ -52,7 +52,7 @@ Shapes = Sequence[Visual | None] | Sequence[Collision | None]
 
 
 def lower_links(file: Fields, scope: FileScope) -> Iterator[tuple[str, Link | None]]:
-    """Lower the links of a file, None for one with a faulty name; other faulty parts of a link are left out."""
+    """Lower the links of a file, None for one with a faulty name; other faulty parts of a link are omitted."""
     return file.each("links", "link", lambda fields, name: _lower_link(fields, name, scope))
 
 

@@ -115,7 +115,7 @@ class ModuleMerger:
         mount = lowered.mount
         if mount and not has_valid_prefix:
             mount = mount._replace(joint=None, gazebo=())
-        # With a clash the module is left out, so that it does not matter whether its joint is at its root.
+        # With a clash the module is omitted, so that it does not matter whether its joint is at its root.
         joints = taken or (self._joint_of(module, mount, None if clashes else final_root),)
         is_merged = False
         if component and not is_mergeable:

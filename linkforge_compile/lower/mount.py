@@ -244,7 +244,7 @@ class SemanticWithoutJoint(NamedTuple):
 
     @property
     def words(self) -> str:
-        """What else is left out, as the end of "virtual joint 'x' is left out"; empty for nothing."""
+        """What else is omitted, as the end of "virtual joint 'x' is omitted"; empty for nothing."""
         removed = f", with {', '.join(self.removed)}" if self.removed else ""
         return removed + (f", and taken out of {', '.join(self.changed)}" if self.changed else "")
 

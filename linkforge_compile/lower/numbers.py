@@ -208,7 +208,7 @@ def _in_bound(node: YamlNode, number: float, accepted: NumberType) -> float | Re
         facts = {"bound": accepted.bound.words + accepted.si_unit, "found": found}
         if suspicious_unit(node, number, accepted) is WIDE_ANGLE:
             facts |= {"written": found, "instead": f"{found} deg"}
-            facts["found"] = f"{found}; write '{found} deg' if degrees are meant"
+            facts["found"] = f"{found}; write '{found} deg' if you mean degrees"
         return Refusal(OUT_OF_RANGE, facts)
     return number
 

@@ -17,7 +17,7 @@ from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode
 def unconditional_tree(instance: Instance) -> YamlMap | None:
     """Return the expanded tree of a use without its modules, with all that a `when` or an override leaves out.
 
-    What is faulty then is left out, such as the second of two entries with the same name. None if nothing is left out.
+    What is faulty then is omitted, such as the second of two entries with the same name. None if nothing is omitted.
     """
     evaluator = instance.names
     if instance.spec is None or not isinstance(evaluator, Evaluator):

@@ -11,7 +11,7 @@ The stages, from top to bottom; each imports those above it:
     template     what a file expands to: elements with expressions, conditions and uses of modules
     expand       walks a xacro as xacro does, but keeps what depends on a parameter as an expression
     calls        calls of macros: written in place, or as a module
-    without_effect  elements that no reader of URDF acts on
+    without_effect  elements that no URDF reader acts on
     written      a template as URDF in which a number stands for each expression
     values       expressions in the place of these numbers
     merge        one tree of the trees for the outcomes of conditions

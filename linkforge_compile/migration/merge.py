@@ -190,7 +190,7 @@ class Merger:
 
 
 def _with_prefix(parts: Parts) -> Iterator[Part]:
-    """Yield the pieces of a text in which `$(prefix)`, which the reader of URDF writes, is an expression."""
+    """Yield the pieces of a text in which `$(prefix)`, which the URDF reader writes, is an expression."""
     for part in parts:
         if not isinstance(part, str):
             yield part

@@ -84,7 +84,7 @@ class Migration:
 
     @property
     def combinations(self) -> list[Arguments]:
-        """The arguments for which the specs are proved, the given ones first; defaults are left out."""
+        """The arguments for which the specs are proved, the given ones first; defaults are omitted."""
         given, symbols = self.expander.given, self.expander.arguments
         return [
             {name: value for name, value in one.items() if name in given or value != _default(symbols[name])}

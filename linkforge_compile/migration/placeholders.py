@@ -1,4 +1,4 @@
-"""Numbers that stand for expressions in a URDF, so that the reader of URDF reads templates as well."""
+"""Numbers that stand for expressions in a URDF, so that the URDF reader reads templates as well."""
 
 from __future__ import annotations
 

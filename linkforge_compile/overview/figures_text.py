@@ -56,7 +56,7 @@ def _part_rows(figures: Figures) -> Iterator[tuple[str, str]]:
             about = f" of {_names(one.about)}" if one.about else ""
             yield "" if number else label, f"{one.name}: {one.kind}{about}"
     for group in figures.groups:
-        yield "group", f"{group.name}: {', '.join(group.joints) or 'no joint that moves by itself'}"
+        yield "group", f"{group.name}: {', '.join(group.joints) or 'no joint that moves independently'}"
         if group.states:
             yield "", f"states {', '.join(group.states)}"
         if group.reach:

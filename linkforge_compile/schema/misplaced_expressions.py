@@ -173,7 +173,7 @@ def _without_prefix(prefix: Span) -> Fix | None:
     whole = prefix._replace(column=prefix.column - len("$("), end_column=prefix.end_column + len(")"))
     following = prefix.file.line(prefix.line)[whole.end_column - 1 :][:1]
     is_alone = whole.text == "$(prefix)" and re.match(r"[\w$]", following)
-    return Fix("leave out '$(prefix)'", (Edit(whole, ""),)) if is_alone else None
+    return Fix("remove '$(prefix)'", (Edit(whole, ""),)) if is_alone else None
 
 
 def _name_alone(expression: Expression) -> Fix | None:

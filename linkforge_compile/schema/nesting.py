@@ -76,7 +76,7 @@ def without_map(entry: YamlEntry, around: YamlMap) -> Fix | None:
     place, inner = _place([entry]), entry.value
     if place is None or not isinstance(inner, YamlMap) or not inner.entries:
         return None
-    title, first = f"leave out '{entry.name}'", next(iter(inner)).key.span
+    title, first = f"remove '{entry.name}'", next(iter(inner)).key.span
     if _is_flow(inner):
         text, end = inner.span.file.counted, inner.span.file.index_of(*inner.span.end)
         if not _is_flow(around) or text[end - 1] != "}":

@@ -84,7 +84,7 @@ def _turned(tensor: InertiaTensor, pose: Pose) -> InertiaTensor:
 
 
 def diagnostics_row(diagnostics: Iterable[Diagnostic], hide: str = "") -> Row:
-    """Return the counts of errors and warnings, and all as JSON; `hide` is left out of paths."""
+    """Return the counts of errors and warnings, and all as JSON; `hide` is omitted from paths."""
     listed = [
         {
             "severity": one.severity.value,

@@ -30,7 +30,7 @@ _MOST_NESTED = 3
 """The most levels of brackets on a line."""
 
 # Text in YAML 1.2, but in 1.1 a boolean, a number to base 2, 8 or 60, one with grouped digits, a date, a merge or a
-# default. `y` and `n` are left out: few readers take them for booleans, and `axis: y` is common.
+# default. `y` and `n` are omitted: few readers take them for booleans, and `axis: y` is common.
 _MISREAD = re.compile(
     r"""(?i: yes | no | on | off )
       | [-+]? 0b [01_]+

@@ -205,7 +205,7 @@ class Scene(TypedDict):
 def make_scene(robot: Robot, files: RobotFiles, view: SceneView | None = None, *, is_live: bool = False) -> Scene:
     """Return the scene of a robot with the files of its shapes, which are those of `collect_files`.
 
-    A joint to a link that another joint holds is left out. Links of a circle, which no root holds, are roots.
+    A joint to a link that another joint holds is omitted. Links of a circle, which no root holds, are roots.
     """
     tree = KinematicTree.of(robot)
     held = {node.link.name for node in tree.nodes}

@@ -12,7 +12,7 @@ def test_a_moving_frame_with_a_body_below_is_dropped_by_gazebo():
     subject = robot("base hand", turning("pan", "base", "head"), turning("tilt", "head", "hand"))
     subject.add_link(Link("head"))
     assert messages_of(subject) == [
-        "LF6004 joint 'pan' moves link 'head', which has no mass: Gazebo leaves it out with all below it, "
+        "LF6004 joint 'pan' moves link 'head', which has no mass: Gazebo drops it with everything below it, "
         "joint 'tilt' too"
     ]
 
@@ -44,7 +44,8 @@ def test_a_chain_of_moving_frames_is_reported_once_with_the_dropped_joints():
     subject.joints += (fixed("glue", "hand", "tip"),)
     (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
-        "joint 'z' moves link 'roll', which has no mass: Gazebo leaves it out with all below it, joints 'y' and 'x' too"
+        "joint 'z' moves link 'roll', which has no mass: Gazebo drops it with everything below it, joints 'y' and "
+        "'x' too"
     )
     assert [note.message for note in diagnostic.notes] == ["joint 'y' is lost", "joint 'x' is lost"]
 
@@ -54,7 +55,7 @@ def test_a_massless_root_loses_the_whole_robot_in_gazebo_alone():
     assert messages_of(subject) == []
     subject.add_gazebo_element(GazeboElement("arm", {"mu1": "0.2"}))
     assert messages_of(subject) == [
-        "LF6006 root link 'base' has no mass: Gazebo leaves it out with all below it, joint 'turn' too"
+        "LF6006 root link 'base' has no mass: Gazebo drops it with everything below it, joint 'turn' too"
     ]
 
 
@@ -77,9 +78,7 @@ def test_masses_that_are_fixed_to_one_another_count_together():
     subject.links += (body("a", 0.9e-6), body("b", 0.9e-6))
     assert messages_of(subject) == []
     subject.links = (body("base"), body("a", 0.5e-6), body("b", 0.4e-6))
-    assert messages_of(subject) == [
-        "LF6005 joint 'turn' moves link 'a' of 9e-07 kg, which Gazebo leaves out as massless"
-    ]
+    assert messages_of(subject) == ["LF6005 joint 'turn' moves link 'a' of 9e-07 kg, which Gazebo drops as massless"]
 
 
 def test_a_block_that_only_keeps_its_joint_or_does_not_is_fine():

@@ -19,8 +19,8 @@ def test_links_that_nothing_touches_are_reported():
     whole = link("base", seen=True, touched=True)
     subject = of(whole, *(link(name, seen=True, touched=False) for name in ("a", "b")))
     assert messages_of(subject) == [
-        "LF6050 link 'a' has a visual and no collision, so everything passes through",
-        "LF6050 link 'b' has a visual and no collision, so everything passes through",
+        "LF6050 link 'a' has a visual and no collision, so everything passes through it",
+        "LF6050 link 'b' has a visual and no collision, so everything passes through it",
     ]
     assert messages_of(subject, UnresolvedNames(frozenset({"c"}))) == []
 

@@ -23,8 +23,8 @@ def test_a_chain_of_one_link_makes_a_group_without_joints():
         PlanningGroup("root", links=("torso",)),
     )
     assert messages_of(two_arms(groups=groups, group_states=(state,))) == [
-        "LF5617 planning group 'g' has no joint, so MoveIt leaves it out",
-        "LF5617 planning group 'h' has no joint, so MoveIt leaves it out",
+        "LF5617 planning group 'g' has no joint, so MoveIt ignores it",
+        "LF5617 planning group 'h' has no joint, so MoveIt ignores it",
     ]
 
 
@@ -62,7 +62,7 @@ def test_a_group_cannot_be_its_own_parent():
 def test_an_end_effector_that_no_group_carries_is_noted():
     hand_alone = two_arms(groups=(HAND,), end_effectors=(EndEffector("e", "hand", "left_arm"),))
     assert messages_of(hand_alone) == [
-        "LF5616 end effector 'e': no planning group holds parent link 'left_arm', so MoveIt knows no arm for it"
+        "LF5616 end effector 'e': no planning group contains parent link 'left_arm', so MoveIt finds no arm for it"
     ]
     assert messages_of(two_arms(groups=(LEFT, HAND), end_effectors=(EndEffector("e", "hand", "left_arm"),))) == []
 

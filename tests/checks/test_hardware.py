@@ -58,7 +58,7 @@ def test_two_systems_may_share_a_joint_but_not_an_interface():
     (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.code.id == "LF6101"
     assert diagnostic.message == (
-        "ros2_control 'second': interface 'shoulder/position' is commanded by ros2_control 'first' already"
+        "ros2_control 'second': interface 'shoulder/position' is already commanded by ros2_control 'first'"
     )
 
 
@@ -66,7 +66,7 @@ def test_a_state_that_two_systems_read_is_reported():
     sensor = Ros2ControlSensor("imu", ("orientation.x",))
     subject = arm(ros2_controls=[system("first", sensors=(sensor,)), system("second", sensors=(sensor,))])
     assert messages_of(subject) == [
-        "LF6102 ros2_control 'second': interface 'imu/orientation.x' is read by ros2_control 'first' already"
+        "LF6102 ros2_control 'second': interface 'imu/orientation.x' is already read by ros2_control 'first'"
     ]
 
 

@@ -36,7 +36,7 @@ def test_a_moment_rounded_to_six_digits_is_fine():
         ),
         (
             InertiaTensor(1, 1, 3),
-            "LF6003 no principal moment of inertia of link 'a' may be above the sum of the others, found 1 1 3 kg·m²",
+            "LF6003 one principal moment of inertia of link 'a' exceeds the sum of the others, found 1 1 3 kg·m²",
         ),
     ],
 )

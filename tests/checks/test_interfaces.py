@@ -23,7 +23,7 @@ def ranged(**parameters: str) -> Robot:
 )
 def test_an_interface_that_is_nearly_one_of_ros2_control(name: str, meant: str):
     assert messages_of(arm(Ros2ControlJoint("shoulder", (), (name,)))) == [
-        f"LF6107 ros2_control 'hw': ros2_control has no interface '{name}' of its own; did you mean '{meant}'?"
+        f"LF6107 ros2_control 'hw': ros2_control defines no interface '{name}'; did you mean '{meant}'?"
     ]
 
 
@@ -40,11 +40,11 @@ def test_ranges_that_agree_with_the_joint(parameters: dict[str, str]):
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"min": "-90 deg"}, "LF6108 {}min is a number in SI units to ros2_control, found '-90 deg'"),
+        ({"min": "-90 deg"}, "LF6108 {}min must be a number in SI units for ros2_control, found '-90 deg'"),
         ({"min": "0.5", "max": "-0.5"}, "LF6109 {}min must not be above max, found 0.5 and -0.5"),
         (
             {"min": "1.5", "max": "2"},
-            "LF6110 {}joint 'shoulder' goes from -1 to 1 rad, which has nothing in common with 1.5 to 2",
+            "LF6110 {}joint 'shoulder' goes from -1 to 1 rad, which does not overlap with 1.5 to 2",
         ),
         ({"initial_value": "-1.5"}, "LF6111 {}joint 'shoulder' goes from -1 to 1 rad, but starts at -1.5"),
     ],
@@ -71,8 +71,8 @@ DRIVEN = Ros2ControlJoint("right", ("position",), extra_attributes=[("mimic", "f
 def test_a_mimic_joint_is_read_in_the_system_of_its_leader():
     assert messages_of(gripper(LEFT, READ)) == []
     assert messages_of(gripper(READ)) == [
-        "LF6105 ros2_control 'hw': joint 'right' mimics 'left', which ros2_control misses in this system; "
-        "list both in one"
+        "LF6105 ros2_control 'hw': joint 'right' mimics 'left', which is not in this ros2_control system; "
+        "list both joints in one system"
     ]
 
 
@@ -80,14 +80,14 @@ def test_a_mimic_joint_is_not_commanded_by_default():
     assert messages_of(gripper(LEFT, DRIVEN)) == []
     assert messages_of(gripper(LEFT, Ros2ControlJoint("right", ("position",)))) == [
         "LF6104 ros2_control 'hw': joint 'right' mimics 'left', so ros2_control refuses to command it; "
-        "leave its state interfaces"
+        "keep only its state interfaces"
     ]
 
 
 def test_a_mimic_of_the_hardware_wants_one_of_the_joint():
     joint = Ros2ControlJoint("left", (), ("position",), extra_attributes=[("mimic", "true")])
     assert messages_of(gripper(joint)) == [
-        "LF6106 ros2_control 'hw': joint 'left' is to mimic another in ros2_control, but has no 'mimic' of its own"
+        "LF6106 ros2_control 'hw': joint 'left' should mimic another joint in ros2_control, but has no 'mimic' itself"
     ]
 
 

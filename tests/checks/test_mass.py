@@ -132,7 +132,7 @@ FITTING = InertiaTensor(0.002, 0.005, 0.005)
             Inertial(2.0, inertia=FITTING),
             300.0,
             [
-                "LF6030 link 'a' of 2 kg is lighter than air: 3.7e-05 kg/m³ in its shapes; is one in another unit?",
+                "LF6030 link 'a' of 2 kg is lighter than air: 3.7e-05 kg/m³ in its shapes; is one of the units wrong?",
                 "LF6033 inertia of link 'a' is 7e-6 of that of the box around its shapes",
             ],
         ),
@@ -146,7 +146,7 @@ FITTING = InertiaTensor(0.002, 0.005, 0.005)
             0.001,
             [
                 "LF6031 link 'a' of 2 kg is denser than any metal: 1e+12 kg/m³ in the box around its shapes; "
-                "is one in another unit?"
+                "is one of the units wrong?"
             ],
         ),
         (

@@ -129,7 +129,7 @@ def test_after_many_missing_packages_only_declared_ones_are_searched(meshes: Pat
 def test_a_file_without_a_shape_is_reported(meshes: Path, content: bytes, reason: str):
     (meshes / "a.stl").write_bytes(content)
     assert messages_of(of(meshes, "package://arm/meshes/a.stl")) == [
-        f"LF6022 mesh 'package://arm/meshes/a.stl' holds no shape: {reason}"
+        f"LF6022 mesh 'package://arm/meshes/a.stl' contains no shape: {reason}"
     ]
 
 

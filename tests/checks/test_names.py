@@ -82,5 +82,5 @@ def test_world_is_the_root_and_nothing_else():
 
 def test_tf2_refuses_frames_with_a_slash_before_them():
     assert messages_of(robot("/base a/b", turning("/j", "/base", "a/b"))) == [
-        "LF4003 tf2 refuses frame '/base', which begins with '/'; leave it out"
+        "LF4003 tf2 refuses frame '/base', which begins with '/'; remove the '/'"
     ]

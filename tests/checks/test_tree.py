@@ -83,7 +83,7 @@ def test_several_roots_are_reported_once_with_a_note_for_each():
     (diagnostic,) = check(subject, UnresolvedNames())
     assert diagnostic.message == (
         "the robot has 3 roots, 'camera', 'base' and 'lidar'; "
-        "join them, such as with a fixed joint from 'base' to 'camera'"
+        "connect them, for example with a fixed joint from 'base' to 'camera'"
     )
     assert [note.message for note in diagnostic.notes] == [
         "'base' is the root of 2 links",
@@ -94,7 +94,7 @@ def test_several_roots_are_reported_once_with_a_note_for_each():
 
 def test_base_link_is_the_parent_in_the_advice_even_where_more_links_hang_on_another():
     message = messages_of(robot("base_link base arm", fixed("weld", "base", "arm")))[0]
-    assert message.endswith("such as with a fixed joint from 'base_link' to 'base'")
+    assert message.endswith("for example with a fixed joint from 'base_link' to 'base'")
 
 
 def test_many_roots_are_counted_and_not_all_spelled_out():

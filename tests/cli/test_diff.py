@@ -60,7 +60,7 @@ def test_differences_are_shown_in_terms_of_the_robot(arms: Path):
 def test_the_same_robot_is_no_difference(arms: Path):
     linkforge("compile", "old.robot.yaml", "-o", "old.urdf", cwd=arms)
     run = linkforge("diff", "old.robot.yaml", "old.urdf", cwd=arms)
-    expected = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is left out: old.urdf has none\n"
+    expected = "old.robot.yaml and old.urdf are the same robot\nthe semantic part is omitted: old.urdf has none\n"
     assert (run.returncode, run.stdout) == (0, expected)
 
 

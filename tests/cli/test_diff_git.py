@@ -436,10 +436,10 @@ def test_the_folder_of_a_package_that_the_revision_lacks_is_an_error(repository:
     repository.git("update-index", "--add", "--cacheinfo", f"160000,{commit},vendor")
     repository.git("commit", "-q", "--message", "submodule")
     run = linkforge(*words, "hands=vendor/hands", cwd=repository.folder)
-    expected = "there is no folder 'vendor/hands' in revision 'HEAD'; submodules, here 'vendor', are left out\n"
+    expected = "there is no folder 'vendor/hands' in revision 'HEAD'; submodules, here 'vendor', are omitted\n"
     assert (run.returncode, expected in run.stderr) == (2, True)
     run = linkforge("diff", "vendor/hands/hand.robot.yaml", "--git", "HEAD", cwd=repository.folder)
-    assert "is not in revision 'HEAD'; submodules, here 'vendor', are left out\n" in run.stderr
+    assert "is not in revision 'HEAD'; submodules, here 'vendor', are omitted\n" in run.stderr
 
 
 def test_the_absolute_path_of_a_file_is_the_same_in_the_revision(repository: Repository):

@@ -92,12 +92,12 @@ def test_a_loss_is_reported_and_fails_if_strict(arm, tmp_path: Path, capfd: pyte
     spec = tmp_path / "arm.robot.yaml"
     urdf = arm(f"some text{RAW}")
     assert main(["import", urdf, "-o", str(spec)]) == 0
-    assert "warning: text is not allowed in <robot>; 'some text' is left out [LF8101]" in capfd.readouterr().err
+    assert "warning: text is not allowed in <robot>; 'some text' is omitted [LF8101]" in capfd.readouterr().err
     spec.unlink()
     assert main(["import", urdf, "-o", str(spec), "--strict"]) == 1
     stderr = capfd.readouterr().err
     assert not spec.exists()
-    assert "error: text is not allowed in <robot>; 'some text' is left out [LF8101]" in stderr
+    assert "error: text is not allowed in <robot>; 'some text' is omitted [LF8101]" in stderr
     assert "warning: <material> is kept as raw XML" in stderr
     assert stderr.endswith("\nnothing written: 1 loss (LF8101)\n")
 
@@ -109,7 +109,7 @@ def test_a_loss_that_fails_strict_is_reported_even_if_ignored(
     assert main(["import", arm("some text"), "--strict", *quieter]) == 1
     written, stderr = capfd.readouterr()
     assert written == ""
-    assert "left out [LF8101]" in stderr
+    assert "omitted [LF8101]" in stderr
     assert stderr.endswith("\nnothing written: 1 loss (LF8101)\n")
 
 

@@ -72,7 +72,7 @@ controllers     mover: joint_trajectory_controller/JointTrajectoryController of 
 group           whole: lift, slide
                 states home
                 reach at most 0.85 m, finger_tip from base
-group           hand: no joint that moves by itself
+group           hand: no joint that moves independently
 end effector    gripper: group hand on carriage
 parameters      reach = 800 mm, tool (required)
 variants        lab

@@ -164,7 +164,7 @@ def link_of(shapes: list[tuple[int, str]]) -> Link:
 
 
 def seen_in_mujoco(shapes: list[tuple[int, str]]) -> dict[int, str]:
-    """Return the color of each shape: as its reader of URDF goes on with the last color that it met."""
+    """Return the color of each shape: as its URDF reader goes on with the last color that it met."""
     color, seen = "", {}
     for size, look in shapes:
         color = look if look in COLORS else color

@@ -145,7 +145,7 @@ def test_a_required_parameter_may_be_a_note_and_what_depends_on_it_silent():
         """,
         unset=Unset.NOTE,
     )
-    assert messages == ["nothing sets 'reach', 'side' here, so what depends on them is not checked"]
+    assert messages == ["nothing sets 'reach', 'side' here, so parts that depend on them are not checked"]
     assert isinstance(instance.tree.get("metadata").child("half"), YamlFault)
 
 

@@ -67,7 +67,7 @@ def test_a_prefix_that_the_driver_reads_and_that_stays_is_reported_with_its_over
     urdf, messages = mounted(tmp_path, arm, "")
     assert '<sensor name="left_tcp_fts_sensor">' in urdf
     assert messages == [
-        "'tf_prefix' of hardware 'ur' stays empty, but its sensor 'tcp_fts_sensor' takes the prefix; change it to "
+        "'tf_prefix' of hardware 'ur' stays empty, but its sensor 'tcp_fts_sensor' gets the prefix; change it to "
         f"'left_' by '{OVERRIDE}' where this file is used"
     ]
 
@@ -92,7 +92,7 @@ def test_a_prefix_from_both_is_reported(tmp_path):
     urdf, messages = mounted(tmp_path, XACRO, ", with: {tf_prefix: left_}")
     assert '<sensor name="left_left_tcp_fts_sensor">' in urdf
     assert messages == [
-        "'tf_prefix' of hardware 'left_ur' stays 'left_', but its sensor 'left_tcp_fts_sensor' takes the prefix; "
+        "'tf_prefix' of hardware 'left_ur' stays 'left_', but its sensor 'left_tcp_fts_sensor' gets the prefix; "
         "its names have it already: use this file with 'prefix: \"\"'"
     ]
 

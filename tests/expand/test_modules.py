@@ -127,7 +127,7 @@ def test_a_required_parameter_of_a_module_is_an_error_even_if_those_of_the_robot
     )
     compiled(tmp_path, sink, unset=Unset.NOTE)
     assert messages(sink) == [
-        "nothing sets 'reach' here, so what depends on it is not checked",
+        "nothing sets 'reach' here, so parts that depend on it are not checked",
         "parameter 'reach' has no default and must be set; write 'with: {reach: LENGTH}'",
     ]
 

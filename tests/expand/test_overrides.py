@@ -327,10 +327,10 @@ joints:
         ("joints: {elbow: {limits: {upper: -1}}}", "lower must not be above upper, found 0 and -1", ["upper"]),
         (
             "joints: {elbow: {type: fixed, limits: null}}",
-            "joint 'elbow' is fixed and may not have 'axis'",
+            "joint 'elbow' is fixed and cannot have 'axis'",
             ["type", "limits"],
         ),
-        ("links: {hand: {inertial: {inertia: {ixx: 9}}}}", "no principal moment of inertia", ["ixx"]),
+        ("links: {hand: {inertial: {inertia: {ixx: 9}}}}", "one principal moment of inertia", ["ixx"]),
         # What is wrong with the override's own words stands there already.
         ("joints: {elbow: {limits: {effort: 2 kg, velocity: 2}}}", "effort takes a torque", []),
         ("joints: {wrist: {origin: [0, 0, 1]}, elbow: {limits: {lower: 3}}}", "lower must not be above upper", []),

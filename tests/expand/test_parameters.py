@@ -185,7 +185,7 @@ def test_an_invalid_default_is_reported_even_if_unused():
 
 def test_a_bare_angle_beyond_a_whole_turn_is_doubted():
     text = "parameters: {tilt: {type: angle, default: 0}}"
-    assert "write '90 deg' if degrees are meant" in assemble(text, "tilt=90").messages[0]
+    assert "write '90 deg' if you mean degrees" in assemble(text, "tilt=90").messages[0]
     assert not assemble(text, "tilt=720 deg").messages
 
 

@@ -189,6 +189,6 @@ def test_a_default_outside_the_package_of_its_module_is_reported(tmp_path):
         "packages: {hands: hands}\nmodules: {hand: {use: package://hands/hand.robot.yaml}}", folder=tmp_path
     )
     assert found.messages == [
-        "'cube.obj' lies outside the module's package, so its absolute path ties the output to this machine; "
+        "'cube.obj' is outside the module's package, so its absolute path ties the output to this machine; "
         "write 'package://NAME/PATH'"
     ]

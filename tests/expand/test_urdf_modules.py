@@ -170,13 +170,14 @@ def test_topics_and_frames_that_may_be_anything_are_reported_once_with_all_of_th
         (
             "LF5754",
             21,
-            "plugins of this file name topics, frames or collisions, which take no prefix: "
-            "'base_link', 'state', '/seen'; change what two uses must not share with 'override' where the file is used",
+            "plugins of this file name topics, frames or collisions, which get no prefix: "
+            "'base_link', 'state', '/seen'; where the file is used, change with 'override' those that two uses must "
+            "not share",
         ),
         (
             "LF5704",
             21,
-            "'palm' is a link of this file and takes the prefix, but not here; change it to 'g_palm' by 'override: "
+            "'palm' is a link of this file and gets the prefix, but not here; change it to 'g_palm' by 'override: "
             "{links: {finger: {gazebo: {1: {properties: {sensor: {plugin: {on: ...}}}}}}}}' where this file is used",
         ),
     ]
@@ -243,7 +244,7 @@ def test_a_name_in_raw_xml_that_the_prefix_does_not_reach_is_reported_once(tmp_p
     [diagnostic] = compiled(tmp_path, "g: {use: vendor/gripper.urdf, parent: table}", gripper).diagnostics
     assert diagnostic.code.id == "LF5704"
     assert diagnostic.message == (
-        "'finger' is a link of this file and takes the prefix, but not here; "
+        "'finger' is a link of this file and gets the prefix, but not here; "
         "change it to 'g_finger' by 'override: {extra: ...}' where this file is used, "
         "'...' being the whole element with that name in it"
     )

@@ -94,7 +94,8 @@ def test_what_moveit_cannot_plan_without_is_reported_for_all_joints_at_once(kind
         f"  twist: {{type: continuous, parent: arm, child: hand, axis: x, limits: {{effort: 1, {given}}}}}\n"
     )
     assert reported(text) == [
-        f"LF7601 MoveIt plans no motion of 'turn' without a greatest {kind}; write `{kind}` in its `limits`; the same "
+        f"LF7601 MoveIt cannot plan motions of 'turn' without a maximum {kind}; write `{kind}` in its `limits`; the "
+        f"same "
         "for 'twist'"
     ]
 

@@ -62,7 +62,7 @@ def test_a_version_older_than_a_capsule():
     codes = limits_of(robot(Visual(Capsule(1, 1)), version="1.0"))
     assert codes[1] == (
         "LF7003",
-        "a robot with a capsule is URDF 1.1 or later, found version '1.0'; leave `version` out to have the right one",
+        "a robot with a capsule is URDF 1.1 or later, found version '1.0'; omit `version` to get the right one",
     )
 
 
@@ -158,7 +158,7 @@ WRIST = Joint("wrist", JointType.FIXED, "base", "tool")
 
 def test_forces_need_a_joint_above_the_link():
     assert limits_of(robot(sensors=[FORCES])) == [
-        ("LF7101", "Gazebo senses forces in the joint above a link, and there is none above 'tool'")
+        ("LF7101", "Gazebo measures forces in the joint above a link, and there is none above 'tool'")
     ]
 
 
@@ -183,7 +183,7 @@ def test_a_frame_is_left_out_for_gazebo_classic_alone():
 
 def test_the_info_of_another_type_is_left_out():
     imu = Sensor("imu", SensorType.IMU, "base", imu_info=IMUInfo(), camera_info=CameraInfo())
-    assert limits_of(robot(sensors=[imu])) == [("LF7105", "a sensor of type imu has no 'camera'; it is left out")]
+    assert limits_of(robot(sensors=[imu])) == [("LF7105", "a sensor of type imu has no 'camera'; it is omitted")]
 
 
 def test_fields_that_are_not_looked_into_refuse_text():

@@ -135,16 +135,14 @@ def test_a_chain_that_is_too_long_for_mujoco_is_an_error():
     links = "".join(f"  l{number}:\n" for number in range(500))
     joints = "".join(f"  j{n}: {{type: fixed, parent: l{n}, child: l{n + 1}}}\n" for n in range(499))
     chain = f"links:\n{links}joints:\n{joints}"
-    assert reported(chain) == [
-        "LF7401 MuJoCo cannot read bodies nested deeper than 490, found 500 links one below the other"
-    ]
+    assert reported(chain) == ["LF7401 MuJoCo cannot read bodies nested deeper than 490, found a chain of 500 links"]
     assert MJCF.render(compiled(chain), Rendering())[0].text.count("<body ") == 500
 
 
 def test_a_link_named_world_below_a_joint_is_an_error():
     robot = "links: {base: , world: }\njoints: {weld: {type: fixed, parent: base, child: world}}"
     assert reported(robot) == [
-        "LF7406 MuJoCo has the name 'world' for the ground, so no link below a joint can have it; rename this one"
+        "LF7406 MuJoCo reserves the name 'world' for the ground, so no link below a joint can have it; rename this one"
     ]
 
 
@@ -235,7 +233,7 @@ def test_a_relative_mesh_of_the_working_folder_alone_is_not_found(tmp_path: Path
     monkeypatch.chdir(tmp_path)
     robot = compiled_in(tmp_path / "robots", "links: {base: {visual: {mesh: part.stl}}}")
     assert [one.message for one in MJCF.limits(robot, {})] == [
-        "mesh 'part.stl' is left out of the MJCF: the file is not found"
+        "mesh 'part.stl' is omitted from the MJCF: the file is not found"
     ]
     assert mjcf_model(robot).ngeom == 0
 
@@ -245,11 +243,11 @@ def test_meshes_that_mujoco_cannot_read_are_left_out_and_reported_by_reason(tmp_
     (tmp_path / "text.stl").write_text("solid text\nendsolid text\n")
     robot = compiled_in(tmp_path, "links: {base: {visual: [{mesh: base.dae}, {mesh: text.stl}, {mesh: no.stl}]}}")
     assert [one.message for one in MJCF.limits(robot, {})] == [
-        "mesh 'base.dae' is left out of the MJCF: MuJoCo reads STL, OBJ and MSH; 'linkforge explain LF7404' has a "
+        "mesh 'base.dae' is omitted from the MJCF: MuJoCo reads STL, OBJ and MSH; 'linkforge explain LF7404' has a "
         "command that converts it",
-        "mesh 'text.stl' is left out of the MJCF: MuJoCo reads binary STL of up to 200,000 triangles; 'linkforge "
+        "mesh 'text.stl' is omitted from the MJCF: MuJoCo reads binary STL of up to 200,000 triangles; 'linkforge "
         "explain LF7404' has a command that converts it",
-        "mesh 'no.stl' is left out of the MJCF: the file is not found",
+        "mesh 'no.stl' is omitted from the MJCF: the file is not found",
     ]
     assert mjcf_model(robot).ngeom == 0
 
@@ -260,7 +258,7 @@ def test_a_mesh_of_an_unknown_package_names_the_package(tmp_path: Path):
     robot = compiled_in(tmp_path, f"links: {{base: {{visual: [{visuals}]}}}}")
     (found,) = group_alike(MJCF.limits(robot, {}))
     assert found.message == (
-        f"mesh '{files[0]}' is left out of the MJCF: package 'unknown_description' is not found; say where it is with "
+        f"mesh '{files[0]}' is omitted from the MJCF: package 'unknown_description' is not found; say where it is with "
         f"`--package unknown_description=FOLDER`; the same for '{files[1]}', '{files[2]}', '{files[3]}', "
         f"'{files[4]}' and 3 more"
     )
@@ -271,7 +269,7 @@ def test_a_mesh_of_one_triangle_is_left_out_as_mujoco_refuses_it(tmp_path: Path)
     (tmp_path / "flat.stl").write_bytes(triangles(2))
     robot = compiled_in(tmp_path, "links: {base: {visual: [{mesh: one.stl}, {mesh: flat.stl}]}}")
     assert [one.message for one in MJCF.limits(robot, {})] == [
-        "mesh 'one.stl' is left out of the MJCF: MuJoCo refuses a mesh of one triangle"
+        "mesh 'one.stl' is omitted from the MJCF: MuJoCo refuses a mesh of one triangle"
     ]
     (tmp_path / "robot.mjcf").write_text(MJCF.render(robot, Rendering())[0].text)
     assert mujoco.MjModel.from_xml_path(str(tmp_path / "robot.mjcf")).ngeom == 1
@@ -291,7 +289,7 @@ def test_the_command_of_the_manual_converts_a_mesh(tmp_path: Path):
 
 def test_parts_without_counterpart_are_reported_by_kind():
     assert reported(TURNING + "transmissions: {gear: {type: t, joints: {turn: }, actuators: {motor: }}}\n") == [
-        "LF7413 MuJoCo does not read transmissions; that of 'gear' is left out"
+        "LF7413 MuJoCo does not read transmissions; omitted for 'gear'"
     ]
 
 
@@ -299,7 +297,7 @@ def test_keeping_a_fixed_joint_is_no_loss():
     kept = "links: {base: , tip: }\njoints: {weld: {type: fixed, parent: base, child: tip, gazebo: {SETTING}}}"
     assert reported(kept.replace("SETTING", "preserveFixedJoint: true")) == []
     assert reported(kept.replace("SETTING", "stop_cfm: 0.5")) == [
-        "LF7413 MuJoCo does not read settings for Gazebo; that of 'weld' is left out"
+        "LF7413 MuJoCo does not read settings for Gazebo; omitted for 'weld'"
     ]
 
 

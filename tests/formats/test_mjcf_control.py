@@ -101,14 +101,14 @@ def test_a_joint_has_one_actuator():
     robot = ARM + CONTROL.replace("SHOULDER", "[effort, velocity, torque_constant]")
     assert [one[""] for one in elements(robot, "actuator/*")] == ["motor", "motor"]
     assert reported(robot) == [
-        "LF7407 joint 'shoulder' has an actuator for its command interface 'effort' alone, and none for 'velocity' "
+        "LF7407 joint 'shoulder' has an actuator for its command interface 'effort' only, not for 'velocity' "
         "and 'torque_constant' in the MJCF"
     ]
 
 
 def test_an_actuator_without_a_gain_is_reported():
     assert reported(ARM + CONTROL.replace("SHOULDER", "[position]")) == [
-        "LF7408 the position actuator of joint 'shoulder' has MuJoCo's gain of 1; write `kp` into its parameters"
+        "LF7408 the position actuator of joint 'shoulder' has MuJoCo's gain of 1; write `kp` in its parameters"
     ]
 
 
@@ -284,7 +284,7 @@ sensors: {wrench: {type: force_torque, link: weight, force_torque: {DIRECTION}}}
     assert data.sensor("wrench_force").data[2] == pytest.approx(9.81)
     assert reported(robot.replace("DIRECTION", "measure_direction: parent_to_child")) == []
     assert reported(robot.replace("DIRECTION", "")) == [
-        "LF7409 MuJoCo senses the force of the parent on the child, so the signs of 'wrench' are opposite"
+        "LF7409 MuJoCo measures the force of the parent on the child, so the signs of 'wrench' are opposite"
     ]
 
 
@@ -299,6 +299,6 @@ sensors:
 """
     )
     assert reported(robot) == [
-        "LF7405 MJCF has no sensors of type lidar; that of 'scan' is left out; the same for 'back'",
-        "LF7405 MJCF has no force-torque sensors in the frame of the parent; that of 'wrench' is left out",
+        "LF7405 MJCF has no sensors of type lidar; omitted for 'scan'; the same for 'back'",
+        "LF7405 MJCF has no force-torque sensors in the frame of the parent; omitted for 'wrench'",
     ]

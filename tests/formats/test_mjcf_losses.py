@@ -89,7 +89,7 @@ def test_a_fixed_base_of_a_robot_that_moves_in_the_world_has_a_note():
 
 def test_a_loss_is_reported_at_its_place():
     found = {one.message: one.span for one in MJCF.limits(compiled(CASES["raw XML of a URDF"]), {})}
-    span = found["MJCF has no raw XML of a URDF; that of 'arm' is left out"]
+    span = found["MJCF has no raw XML of a URDF; omitted for 'arm'"]
     lines = (HEAD + CASES["raw XML of a URDF"]).splitlines()
     assert span is not None
     assert lines[span.line - 1][span.column - 1 :].startswith("<note/>")
@@ -125,14 +125,14 @@ def test_friction_holds_on_the_ground_which_has_more(mu: float, dimensions: int)
 
 
 def test_velocity_limits_are_lost_unless_they_limit_a_command():
-    lost = "LF7411 MuJoCo does not limit velocities; the limit of joint 'turn' is left out"
+    lost = "LF7411 MuJoCo does not limit velocities; the limit of joint 'turn' is omitted"
     assert lost in every_report(ROBOT)
     assert lost in every_report(hardware(command="effort"))
     assert lost not in every_report(hardware(command="velocity"))
 
 
 def test_sensors_send_no_messages():
-    lost = "LF7412 MuJoCo measures at every step and sends no messages; rate, topic and frame of 'imu' are left out"
+    lost = "LF7412 MuJoCo measures at every step and sends no messages; rate, topic and frame of 'imu' are omitted"
     imu = "sensors: {imu: {type: imu, link: arm, imu: {}}}\n"
     assert lost in every_report(ROBOT + imu.replace("imu: {}", "imu: {}, topic: /imu"))
     assert lost not in every_report(ROBOT + imu)
@@ -152,7 +152,7 @@ joints:
 )
 def test_a_joint_with_a_name_that_is_made_is_an_error(name: str, base: str, owner: str):
     robot = TAKEN.replace("NAME", name)
-    message = f"LF7410 MuJoCo refuses two joints of one name, and '{name}' is the name of {owner} as well"
+    message = f"LF7410 MuJoCo refuses two joints with the same name, and '{name}' is also the name of {owner}"
     assert reported(robot, base=base) == [f"{message}; rename this one"]
     with pytest.raises(ValueError, match="repeated name"):
         mjcf_model(compiled(robot), base=base)
@@ -169,8 +169,8 @@ semantic:
   group_states: {a: {home: {turn: 0}}, b: {home: {turn: 1}}, c: {a_home: {turn: 2}}}
 """
     assert reported(ROBOT + states) == [
-        "LF7410 MuJoCo refuses two keyframes of one name, and 'a_home' is the name of state 'home' of group 'a' "
-        "as well; rename this one"
+        "LF7410 MuJoCo refuses two keyframes with the same name, and 'a_home' is also the name of state "
+        "'home' of group 'a'; rename this one"
     ]
 
 

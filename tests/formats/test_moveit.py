@@ -212,7 +212,7 @@ def test_a_group_that_nothing_moves_is_reported_with_the_reason(replaced: str, c
     elif replaced:
         text = text.replace(replaced, "left: &wheel {")
     text += f"semantic: {{groups: {{wheels: {{joints: [left, right]}}}}}}\ncontrollers: {controllers}\n"
-    assert reported(text) == [f"LF7609 MoveIt executes no motion of group 'wheels': {reason}"]
+    assert reported(text) == [f"LF7609 MoveIt cannot execute motions of group 'wheels': {reason}"]
     manager = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
     assert written(text, "moveit_controllers.yaml") == {"moveit_controller_manager": manager}
 
@@ -237,7 +237,8 @@ def test_of_controllers_with_a_joint_in_common_the_first_is_the_default():
 def test_misspelled_parameters_of_solvers_are_reported():
     arm = "{chain: {base_link: base, tip_link: lower}, kinematics: {kinematics_sover: pick_ik/PickIkPlugin, mode: a}}"
     assert reported(f"{ROBOT}semantic: {{groups: {{arm: {arm}}}}}\n") == [
-        "LF7616 MoveIt reads no 'kinematics_sover' in the `kinematics` of a group; did you mean 'kinematics_solver'?"
+        "LF7616 MoveIt does not read 'kinematics_sover' in the `kinematics` of a group; did you mean "
+        "'kinematics_solver'?"
     ]
 
 
@@ -252,7 +253,7 @@ def test_a_chain_without_a_solver_is_reported():
 def test_joints_without_a_command_interface_are_named():
     text = ROBOT.replace("elbow: {command_interfaces: [position], ", "elbow: {")
     assert reported(text + ARM_GROUP) == [
-        "LF7609 MoveIt executes no motion of group 'arm': 'elbow' has no command interface in `ros2_control`"
+        "LF7609 MoveIt cannot execute motions of group 'arm': 'elbow' has no command interface in `ros2_control`"
     ]
 
 

@@ -77,7 +77,7 @@ def test_a_line_end_of_windows_is_one_as_in_every_reader():
 
 
 def test_a_processing_instruction_is_refused_with_the_reason():
-    with pytest.raises(RobotGeneratorError, match=r"'<\?sort'; most readers of URDF refuse a file with one"):
+    with pytest.raises(RobotGeneratorError, match=r"'<\?sort'; most URDF readers refuse a file with one"):
         raw_elements("<a><?sort by name?></a>")
 
 
@@ -119,7 +119,7 @@ def test_raw_xml_that_is_none_is_refused(raw: str):
         (
             "<é/><?a b?>",
             4,
-            "raw XML holds the processing instruction '<?a'; most readers of URDF refuse a file with one",
+            "raw XML holds the processing instruction '<?a'; most URDF readers refuse a file with one",
         ),
         ("\n" + "<a>" * 101, 298, "raw XML is nested more than 100 elements deep"),
     ],

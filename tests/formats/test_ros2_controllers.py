@@ -243,8 +243,7 @@ def test_a_prefix_is_on_the_controller_and_all_that_it_names():
         (
             "g: {type: position_controllers/JointGroupPositionController, joints: [elbow], "
             "state_interfaces: [position]}, o: {type: a/B}",
-            "LF7605 a position_controllers/JointGroupPositionController has no 'state_interfaces'; that of 'g' is left "
-            "out",
+            "LF7605 a position_controllers/JointGroupPositionController has no 'state_interfaces'; omitted for 'g'",
         ),
         (
             "t: {type: joint_trajectory_controller/JointTrajectoryController, group: fixed}, o: {type: a/B}",
@@ -379,12 +378,12 @@ def test_what_a_field_states_is_no_parameter_as_well(fields: str, message: str):
             "{type: forward_command_controller/ForwardCommandController, joints: [shoulder], "
             "command_interfaces: [position, velocity]}",
             "LF7622 a forward_command_controller/ForwardCommandController accepts one name in 'command_interfaces'; "
-            "'velocity' of 'c' is left out",
+            "'velocity' of 'c' is omitted",
         ),
         (
             "{type: parallel_gripper_action_controller/GripperActionController, group: arm}",
             "LF7622 a parallel_gripper_action_controller/GripperActionController accepts one name in 'joints'; "
-            "'elbow' of 'c' is left out",
+            "'elbow' of 'c' is omitted",
         ),
     ],
 )
@@ -399,8 +398,8 @@ def test_a_list_that_ros_refuses_is_an_error(items: str, name: str):
     own = f"{{{type_}parameters: {{qos_overrides: {{list: {items}}}}}}}"
     text = f"{ROBOT}controllers: {{o: {{type: a/B}}, {name}: {own}}}\n"
     assert reported(text) == [
-        f"LF7623 ROS 2 reads no parameters from a file with this list, 'qos_overrides.list' of '{name}': items are all "
-        "numbers, all texts, or all true or false"
+        f"LF7623 ROS 2 refuses a parameter file with this list, 'qos_overrides.list' of '{name}': items must be "
+        "all numbers, all strings or all booleans"
     ]
 
 
@@ -578,7 +577,7 @@ def test_what_follows_from_a_wrong_name_is_not_reported(group: str, controllers:
 def test_joints_that_nothing_moves_without_gains_are_reported():
     start = f"{ROBOT}controllers: {{o: {{type: a/B}}, t: {{type: {TRAJECTORY}, joints: [left, right], parameters: "
     assert reported(f"{start}{{gains: {{left: {{p: 1}}}}}}}}}}\n") == [
-        "LF7614 controller 't' does not move joint 'right': it commands velocity alone, and its `gains` are 0; write "
+        "LF7614 controller 't' does not move joint 'right': it commands only velocity, and its `gains` are 0; write "
         "`right: {p: …}` in `gains` of its `parameters`"
     ]
     assert reported(f"{start}{{gains.left.p: 1.0, gains: {{right: {{ff_velocity_scale: 1}}}}}}}}}}\n") == []

@@ -177,10 +177,10 @@ def test_a_mimic_joint_needs_version_1_11():
     assert [mimic.findtext(tag) for tag in ("multiplier", "offset", "reference")] == ["-2", "0.5", "0"]
     assert document(TWO + MIMIC, sdf="1.9").find(".//mimic") is None
     assert reported(TWO + MIMIC, sdf="1.9") == [
-        "LF7506 SDF 1.9 has no mimic joints, so 'follow' moves by itself; leave out `--sdf 1.9`, or choose 1.11"
+        "LF7506 SDF 1.9 has no mimic joints, so 'follow' moves freely; remove `--sdf 1.9`, or set it to 1.11"
     ]
     assert reported(TWO + MIMIC) == [
-        "LF7514 DART, Gazebo's default engine, ignores mimic joints, so 'follow' moves by itself; "
+        "LF7514 DART, Gazebo's default engine, ignores mimic joints, so 'follow' moves freely; "
         "choose bullet-featherstone, or have gz_ros2_control move it"
     ]
 
@@ -193,9 +193,7 @@ def test_a_mimic_joint_whose_leader_has_no_axis_moves_by_itself(kind: str):
     )
     root = document(text)
     assert (root.get("version"), root.find(".//mimic")) == ("1.9", None)
-    assert reported(text) == [
-        "LF7501 SDF has no mimic with a joint of other than one axis; that of 'follow' is left out"
-    ]
+    assert reported(text) == ["LF7501 SDF has no mimic with a joint of other than one axis; omitted for 'follow'"]
 
 
 def test_limits_and_dynamics_of_a_floating_joint_are_reported():
@@ -204,8 +202,8 @@ def test_limits_and_dynamics_of_a_floating_joint_are_reported():
         "limits: {effort: 1, velocity: 1}}}"
     )
     assert reported(text) == [
-        "LF7501 SDF has no limits of floating joints; that of 'loose' is left out",
-        "LF7501 SDF has no dynamics of floating joints; that of 'loose' is left out",
+        "LF7501 SDF has no limits of floating joints; omitted for 'loose'",
+        "LF7501 SDF has no dynamics of floating joints; omitted for 'loose'",
     ]
 
 
@@ -244,25 +242,25 @@ def test_a_joint_with_the_name_of_a_link_is_renamed(tmp_path: Path):
         ),
         (
             TWO + "joints: {glide: {type: planar, parent: base, child: hand, axis: z}}",
-            ["LF7507 SDF has no planar joints, so 'glide' is left out and link 'hand' moves freely"],
+            ["LF7507 SDF has no planar joints, so 'glide' is omitted and link 'hand' moves freely"],
         ),
         (
             "links: {base: {inertial: *unit, gazebo: {material: Gazebo/Orange, mu1: 1}}}",
-            ["LF7501 SDF has no place for the setting 'material'; that of 'base' is left out"],
+            ["LF7501 SDF has no place for the setting 'material'; omitted for 'base'"],
         ),
         (
             "links: {base: {inertial: *unit, extra: <thermal/>}}",
-            ["LF7501 SDF has no raw XML of a URDF; that of 'base' is left out"],
+            ["LF7501 SDF has no raw XML of a URDF; omitted for 'base'"],
         ),
         (
             "links: {world: {visual: {box: [1, 1, 1]}}, base: {inertial: *unit}}\n"
             "joints: {weld: {type: fixed, parent: world, child: base}}",
-            ["LF7501 SDF has no shapes of the world; that of 'world' is left out"],
+            ["LF7501 SDF has no shapes of the world; omitted for 'world'"],
         ),
         (
             TWO + "joints: {turn: {type: revolute, parent: base, child: hand, axis: z, "
             "limits: {lower: 0, upper: 1, effort: 1, velocity: 1}, safety_controller: {k_velocity: 1}}}",
-            ["LF7501 SDF has no safety controllers; that of 'turn' is left out"],
+            ["LF7501 SDF has no safety controllers; omitted for 'turn'"],
         ),
     ],
 )
@@ -320,7 +318,7 @@ def test_raw_xml_of_a_urdf_is_reported_at_its_place():
     )
     (found,) = SDF.limits(compiled(text), {})
     assert (found.message, found.span and found.span.text) == (
-        "SDF has no raw XML of a URDF; that of 'turn' is left out",
+        "SDF has no raw XML of a URDF; omitted for 'turn'",
         "2",
     )
 

@@ -127,8 +127,8 @@ links:
     (surface,) = document(text).iterfind(".//collision/surface")
     assert [element.text for element in surface.iterfind(".//mu")] == ["0.9"]
     assert reported(text) == [
-        "LF7501 SDF has no second <surface>, so no place for the setting 'mu1'; that of 'base' is left out",
-        "LF7501 SDF has no second <surface>, so no place for the setting 'kp'; that of 'base' is left out",
+        "LF7501 SDF has no second <surface>, so no place for the setting 'mu1'; omitted for 'base'",
+        "LF7501 SDF has no second <surface>, so no place for the setting 'kp'; omitted for 'base'",
     ]
 
 
@@ -192,12 +192,12 @@ gazebo: {static: true, plugins: {control: {filename: libcontrol.so, parameters: 
 
 def test_a_force_torque_sensor_without_a_joint_is_reported():
     text = "links: {base: {inertial: *unit}}\nsensors: {wrench: {type: force_torque, link: base}}"
-    assert reported(text) == ["LF7501 SDF has no force-torque sensors without a joint; that of 'wrench' is left out"]
+    assert reported(text) == ["LF7501 SDF has no force-torque sensors without a joint; omitted for 'wrench'"]
 
 
 def test_a_plugin_of_a_link_is_reported():
     text = "links: {base: {inertial: *unit, gazebo: {plugins: {glow: {filename: libglow.so}}}}}"
-    assert reported(text) == ["LF7501 SDF has no plugins of links and joints; that of 'glow' is left out"]
+    assert reported(text) == ["LF7501 SDF has no plugins of links and joints; omitted for 'glow'"]
 
 
 def test_settings_that_a_frame_cannot_hold_are_reported():
@@ -212,11 +212,11 @@ joints:
   loose: {type: floating, parent: base, child: ball, gazebo: {provide_feedback: true}}
 """
     assert reported(text) == [
-        "LF7501 SDF has no place for the setting 'selfCollide' of a frame; that of 'camera' is left out",
-        "LF7501 SDF has no place for the setting 'gravity' of a frame; that of 'camera' is left out",
-        "LF7501 SDF has no place for the setting 'dampingFactor' of a frame; that of 'camera' is left out",
-        "LF7501 SDF has no place for the setting 'springStiffness' of a frame; that of 'mount' is left out",
-        "LF7501 SDF has no place for the setting 'provideFeedback' of a frame; that of 'loose' is left out",
+        "LF7501 SDF has no place for the setting 'selfCollide' of a frame; omitted for 'camera'",
+        "LF7501 SDF has no place for the setting 'gravity' of a frame; omitted for 'camera'",
+        "LF7501 SDF has no place for the setting 'dampingFactor' of a frame; omitted for 'camera'",
+        "LF7501 SDF has no place for the setting 'springStiffness' of a frame; omitted for 'mount'",
+        "LF7501 SDF has no place for the setting 'provideFeedback' of a frame; omitted for 'loose'",
     ]
 
 
@@ -226,9 +226,9 @@ links: {world: {gazebo: {mu1: 1, extra: "<light name='sun' type='point'/>"}}, ba
 joints: {weld: {type: fixed, parent: world, child: base, gazebo: {springStiffness: 3, provide_feedback: true}}}
 """
     assert reported(text) == [
-        "LF7501 SDF has no place for the setting 'mu1' of the world; that of 'world' is left out",
-        "LF7501 SDF has no place for the setting 'light' of the world; that of 'world' is left out",
-        "LF7501 SDF has no place for the setting 'springStiffness' of a fixed joint; that of 'weld' is left out",
+        "LF7501 SDF has no place for the setting 'mu1' of the world; omitted for 'world'",
+        "LF7501 SDF has no place for the setting 'light' of the world; omitted for 'world'",
+        "LF7501 SDF has no place for the setting 'springStiffness' of a fixed joint; omitted for 'weld'",
     ]
 
 

@@ -96,7 +96,8 @@ def test_a_contact_sensor_feels_what_it_names(link: str, collision: str, expecte
 def test_a_contact_sensor_without_its_collision_is_reported():
     text = BUMPERS + "sensors: {touch: {type: contact, link: base, contact: {collision: top_colision}}}\n"
     assert reported(text)[1:] == [
-        "LF7511 contact sensor 'touch' feels nothing, since link 'base' has no collision 'top_colision' in the SDF; "
+        "LF7511 contact sensor 'touch' detects nothing, because link 'base' has no collision 'top_colision' in the "
+        "SDF; "
         "did you mean 'top_collision'?"
     ]
 

@@ -189,8 +189,8 @@ def test_joints_that_gz_ros2_control_moves_are_in_the_outermost_model(tmp_path: 
         (
             CONTROLLED.replace("PLUGIN", "gz_ros2_control/GazeboSimSystem"),
             [
-                "LF7512 gz_ros2_control finds no joints in nested models, so 'left_hand_bend' is in that of the robot, "
-                "and not of its module"
+                "LF7512 gz_ros2_control finds no joints in nested models, so 'left_hand_bend' is in the model of "
+                "the robot, not in that of its module"
             ],
         ),
         (CONTROLLED.replace("PLUGIN", "mock_components/GenericSystem"), []),

@@ -344,7 +344,7 @@ def test_what_xml_cannot_hold_is_reported_at_its_line(text: str, reason: str, tm
 )
 def test_output_that_is_not_xml_is_reported(text: str, problem: str, tmp_path: Path):
     found = fault(text, tmp_path, "a.xml")
-    assert (found.code.id, found.message) == ("LF7206", f"this template makes XML that is not well-formed: {problem}")
+    assert (found.code.id, found.message) == ("LF7206", f"this template writes XML that is not well-formed: {problem}")
 
 
 def test_output_that_is_not_xml_is_reported_at_the_line_of_the_template(tmp_path: Path):

@@ -123,7 +123,7 @@ def test_an_import_tells_exactly_where_mujoco_shows_another_color(
 
 
 def seen_in_mujoco(document: str) -> dict[float, str]:
-    """Return the color of each sphere by its radius: as its reader of URDF goes on with the last color that it met."""
+    """Return the color of each sphere by its radius: as its URDF reader goes on with the last color that it met."""
     robot, color, seen = ElementTree.fromstring(document), "", dict[float, str]()
     first = {one.get("name"): one for one in reversed(list(robot.iter("material"))) if one.find("color") is not None}
     for shape in robot.findall("link/*"):

@@ -1,4 +1,4 @@
-"""What readers of URDF refuse is an error when a URDF is compiled; urdfdom itself decides what that is."""
+"""What URDF readers refuse is an error when a URDF is compiled; urdfdom itself decides what that is."""
 
 import pytest
 

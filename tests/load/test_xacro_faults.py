@@ -23,7 +23,7 @@ def fault_in(folder: Path, *lines: str) -> tuple[str, str, list[tuple[str, int]]
     return diagnostic.code.id, diagnostic.message, places
 
 
-GIVES_UP = "xacro gives up here: "
+GIVES_UP = "xacro fails here: "
 
 
 @pytest.mark.parametrize(
@@ -31,12 +31,12 @@ GIVES_UP = "xacro gives up here: "
     [
         (
             '<link name="${lenght}"/>',
-            "xacro knows no property or parameter named 'lenght' here; did you mean 'length'?",
+            "xacro has no property or parameter named 'lenght' here; did you mean 'length'?",
             "${lenght}",
         ),
         (
             '<xacro:rood length="1"/>',
-            "xacro knows no macro named 'rood' here; did you mean 'rod'?",
+            "xacro has no macro named 'rood' here; did you mean 'rod'?",
             "<xacro:rood",
         ),
         (
@@ -72,7 +72,7 @@ def test_a_fault_is_reported_at_the_expression_or_call(line: str, message: str, 
 def test_a_faulty_property_is_reported_there_and_where_it_is_needed(tmp_path: Path):
     property_ = '<xacro:property name="table" value="${1 / 0}"/>'
     code, message, places = fault_in(tmp_path, property_, '<link name="${table}"/>')
-    assert (code, message) == ("LF8032", "xacro gives up here: division by zero, in '${1 / 0}'")
+    assert (code, message) == ("LF8032", "xacro fails here: division by zero, in '${1 / 0}'")
     assert [line for _, line in places] == [2, 3]
 
 

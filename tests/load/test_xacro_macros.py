@@ -330,7 +330,7 @@ FAULTS = {
         "a: {macro: lidar, parent: deck, with: {parent: deck}}",
         "LF8037",
         5,
-        "parameter 'parent' of the macro is 'parent' of module 'a', which is set; leave out one",
+        "parameter 'parent' of the macro is 'parent' of module 'a', which is set; remove one of them",
     ),
     "two prefixes": (
         "a: {macro: lidar, parent: deck, with: {prefix: x}, prefix: y}",
@@ -348,13 +348,13 @@ FAULTS = {
         "a: {macro: heavy, parent: deck, with: {m: 1}}",
         "LF8047",
         5,
-        "'heavy' makes no",
+        "'heavy' creates no",
     ),
     "a macro that makes nothing": (
         "a: {macro: nothing, parent: deck, with: {m: 1}}",
         "LF8047",
         5,
-        "'nothing' makes no",
+        "'nothing' creates no",
     ),
     "several joints without a parent": ("a: {macro: bumpers}", "LF3021", 5, "'parent' of module 'a' has no default"),
     "a place of its own without a parent": (
@@ -373,13 +373,13 @@ FAULTS = {
         "a: {macro: bumpers, parent: deck, joint: weld}",
         "LF5324",
         5,
-        "module 'a' has its own mount 'pad_joint'; leave 'joint' out, or write 'override: {joints: {pad_joint: …}}'",
+        "module 'a' has its own mount 'pad_joint'; remove 'joint', or write 'override: {joints: {pad_joint: …}}'",
     ),
     "an origin without effect": (
         "a: {macro: wheel, parent: deck, origin: [0, 0, 1], with: {name: a, xyz: 0 0 0, shape: <box size='1 1 1'/>}}",
         "LF8038",
         5,
-        "macro 'wheel' places itself, so 'origin' has no effect",
+        "macro 'wheel' sets its own position, so 'origin' has no effect",
     ),
 }
 
@@ -401,7 +401,7 @@ def test_a_fault_in_a_macro_is_at_its_line_and_names_the_call(cell: Cell):
 
 def test_a_macro_that_needs_another_file_tells_the_way_out(cell: Cell):
     (fault,) = cell("a: {macro: clamp, parent: deck}").diagnostics
-    assert fault.message.startswith("xacro knows no macro named 'jaw' here")
+    assert fault.message.startswith("xacro has no macro named 'jaw' here")
     assert "write a xacro that includes both files" in fault.notes[0].message
 
 

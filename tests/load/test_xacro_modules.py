@@ -164,7 +164,7 @@ def test_xacro_failures_are_reported_where_they_occur(change, line, message, ven
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
     place_found = place(compilation)
     assert place_found[:2] == ("arm.urdf.xacro", line)
-    assert place_found[2].startswith("xacro gives up here: ")
+    assert place_found[2].startswith("xacro fails here: ")
     assert message in place_found[2]
 
 
@@ -172,7 +172,7 @@ def test_warnings_of_xacro_are_reported(vendor, tmp_path):
     arm = ARM.replace("  <gazebo>", "  ${xacro.warning('it is old')}\n  <gazebo>")
     (vendor / "urdf" / "arm.urdf.xacro").write_text(arm, "utf-8")
     compilation = cell(tmp_path, "a: {use: vendor/urdf/arm.urdf.xacro, parent: floor}")
-    assert "xacro says: it is old" in [diagnostic.message for diagnostic in compilation.diagnostics]
+    assert "xacro reports: it is old" in [diagnostic.message for diagnostic in compilation.diagnostics]
 
 
 @pytest.mark.parametrize(

@@ -241,7 +241,7 @@ name: stand
 links: {foot: }
 semantic: {virtual_joints: {ground: {type: fixed, parent_frame: world, child_link: foot}}}"""
 LEFT_OUT = (
-    "   # N[LF5302]:29 virtual joint 'ground' is left out: the file that uses this one attaches 'foot' to another link"
+    "   # N[LF5302]:29 virtual joint 'ground' is omitted: the file that uses this one attaches 'foot' to another link"
 )
 
 

@@ -134,7 +134,7 @@ def test_without_trimesh_the_package_to_install_is_reported_once(tmp_path, monke
         monkeypatch.setitem(sys.modules, name, None)
     assert messages(check_file(path)) == [
         "LF6010: the inertia of mesh 'cube.stl' needs the Python package trimesh; "
-        "run \"pip install 'linkforge-compile[mesh]'\", or give 'inertia'"
+        "run \"pip install 'linkforge-compile[mesh]'\", or specify 'inertia'"
     ]
 
 

@@ -18,9 +18,9 @@ GRIPPER = """
         plugin: {name: p, filename: p.so, parameters: {a: {frame: [other, finger]}}}   #name
 """
 TOLD = {
-    "#topic": "# W[LF5705]:12 '/touch' is an absolute topic and takes no prefix, so every use of this file publishes "
+    "#topic": "# W[LF5705]:12 '/touch' is an absolute topic and gets no prefix, so every use of this file publishes "
     "there",
-    "#name": "# W[LF5704]:71 'finger' is a link of this file and takes the prefix, but not here; "
+    "#name": "# W[LF5704]:71 'finger' is a link of this file and gets the prefix, but not here; "
     "write '$(link('finger'))'",
 }
 CELL = "name: cell\nlinks: {table: , finger: }\njoints: {j: {type: fixed, parent: table, child: finger}}\n"
@@ -71,7 +71,7 @@ def test_names_of_the_files_around_are_no_names_of_the_file():
 
 def test_names_anywhere_in_raw_xml_are_reported():
     unnamed = "name: lamp\nlinks: {bulb: , stand: }\njoints: {j: {type: fixed, parent: stand, child: bulb}}\nextra: "
-    entry = "  # W[LF5704]:8 'bulb' is a link of this file and takes the prefix, but not here; write '$(link('bulb'))'"
+    entry = "  # W[LF5704]:8 'bulb' is a link of this file and gets the prefix, but not here; write '$(link('bulb'))'"
     for raw in ("<a b = 'bulb'/>", '<a x="1"y="bulb"/>', "<a> bulb </a>", "<a.b:c-d>bulb", '<a x=">" b="bulb"/>'):
         robot_of(used(Spec(f"{unnamed}{raw}{entry}\n")))
     for raw in (
@@ -91,7 +91,7 @@ def test_names_anywhere_in_raw_xml_are_reported():
 )
 def test_each_name_in_a_list_is_reported(text: str):
     entry = " ## ".join(
-        f"W[LF5704]:8 '{name}' is a link of this file and takes the prefix, but not here; write '$(link('{name}'))'"
+        f"W[LF5704]:8 '{name}' is a link of this file and gets the prefix, but not here; write '$(link('{name}'))'"
         for name in ("bulb", "stand")
         if name in text
     )

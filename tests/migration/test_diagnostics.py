@@ -28,7 +28,7 @@ def test_the_command_writes_specs_and_prints_a_report(tmp_path: Path):
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 0
     assert "proof       2 of 2 combinations of its arguments are the same robot\n" in ran.stdout
-    assert "macro 'paint' is no module: it has no links and joints" in ran.stderr  # LF8041
+    assert "macro 'paint' cannot be a module: it has no links and joints" in ran.stderr  # LF8041
     text = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert text.startswith("# linkforge migrate ../robot.xacro -o .\n")
     assert [path.name for path in (tmp_path / "specs").iterdir()] == ["robot.robot.yaml"]
@@ -43,7 +43,7 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     spec.write_text(spec.read_text("utf-8").replace("mu1: 0.5", "mu1: 0.6"), "utf-8")
     ran = linkforge(*verify, cwd=tmp_path)
     assert ran.returncode == 1
-    assert "with all defaults and 1 other combination, the specs are another robot: " in ran.stderr  # LF8040
+    assert "with all defaults and 1 other combination, the specs give a different robot: " in ran.stderr  # LF8040
 
 
 def test_other_content_is_replaced_only_by_force(tmp_path: Path):
@@ -131,7 +131,7 @@ def test_a_macro_that_cannot_be_translated_stays_one(tmp_path: Path):
     )
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 0, ran.stderr
-    assert "macro 'part' stays a macro of its xacro" in ran.stderr  # LF8045
+    assert "macro 'part' remains a macro of its xacro" in ran.stderr  # LF8045
     spec = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert 'tip: {use: ../parts.xacro, macro: part, parent: base, prefix: "", with: {name: tip}}' in spec
 

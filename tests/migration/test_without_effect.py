@@ -1,4 +1,4 @@
-"""What no reader of URDF acts on is left out with a note; nothing else is."""
+"""What no URDF reader acts on is omitted with a note; nothing else is."""
 
 from pathlib import Path
 

@@ -197,7 +197,7 @@ def test_of_several_uses_that_do_not_fit_the_first_in_the_file_is_reported():
 @pytest.mark.parametrize("text", ["name: arm\n", "name: arm\nlinkforge:\n"])
 def test_a_missing_version_is_reported_first(text: str):
     _, reported = validated(text)
-    assert reported == ["1:1 write 'linkforge: 1' first: it says which version of the language the file is in"]
+    assert reported == ["1:1 write 'linkforge: 1' first: it states which version of the language the file uses"]
 
 
 def test_another_version_is_reported_at_its_number():
@@ -207,7 +207,7 @@ def test_another_version_is_reported_at_its_number():
 
 def test_a_robot_without_a_name_is_reported():
     assert validated("linkforge: 1\n")[1] == [
-        "1:1 a robot needs a 'name'; a file for 'include' is checked with the one that includes it"
+        "1:1 a robot needs a 'name'; a file for 'include' is checked with the file that includes it"
     ]
 
 

@@ -40,7 +40,7 @@ def test_other_tags_and_tags_on_maps_are_reported_where_they_stand():
 def test_an_empty_file_is_reported(text):
     assert read(text) == (
         None,
-        ["table.yaml:1:1: error: the data file is empty; write the values that it is to hold [LF1114]"],
+        ["table.yaml:1:1: error: the data file is empty; write its values [LF1114]"],
     )
 
 

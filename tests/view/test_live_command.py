@@ -121,7 +121,7 @@ def test_a_port_that_is_not_free_is_wrong_usage(folder: Path):
         port = str(other.getsockname()[1])
         result = linkforge("view", "arm.robot.yaml", "--port", port, "--no-browser", cwd=folder)
     assert result.returncode == 2
-    assert f"--port {port}: Address already in use; leave it out for any free port" in result.stderr
+    assert f"--port {port}: Address already in use; omit it to use any free port" in result.stderr
 
 
 @pytest.mark.parametrize(

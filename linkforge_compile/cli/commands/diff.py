@@ -180,7 +180,7 @@ def _lines(comparison: _Comparison) -> Iterator[str]:
         yield f"{spec} is compared as written, since its URDF does not read back: {comparison.not_read_back}"
     if comparison.is_semantic_missed:
         without = [side.word for side in comparison.sides if not side.has_semantic]
-        yield f"the semantic part is left out: {' and '.join(without)} has none"
+        yield f"the semantic part is omitted: {' and '.join(without)} has none"
 
 
 def _json_text(comparison: _Comparison) -> str:

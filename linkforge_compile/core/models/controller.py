@@ -33,7 +33,7 @@ class Controller(Element):
     `joints` are those that it commands or reads, for a `group` without them the joints of the group. `left_wheels` and
     `right_wheels` are those of a differential drive. `sensor` is a sensor of ros2_control, whose values are in `frame`.
     `parameters` are all others: numbers, booleans, texts, and lists and maps of them. `type` is None for the
-    controller manager alone, whose name takes no prefix; the names of hardware and controllers in its parameters do.
+    controller manager alone, whose name gets no prefix; the names of hardware and controllers in its parameters do.
 
     Raises:
         RobotValidationError: NAME_EMPTY for a blank name.

@@ -199,7 +199,7 @@ class Robot(RobotParts):
     ) -> Robot:
         """Add all parts of another robot under a prefix, and the joint from `at_link` to its root link.
 
-        The joint's own name takes no prefix; `origin` is identity where it is None. From `joint` come the fields
+        The joint's own name gets no prefix; `origin` is identity where it is None. From `joint` come the fields
         without an argument here: dynamics, mimic, safety controller, calibration, source, axis as written, extras.
         Without `at_link` nothing connects the two, and the arguments about the joint are not read.
         The component stays as it is. Its name, version, metadata and resolver are not taken over.

@@ -43,7 +43,7 @@ class VirtualJointType(StrEnum):
 class VirtualJoint(Element):
     """The joint between the world and the robot: `<virtual_joint name type parent_frame child_link>`.
 
-    `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and takes no prefix.
+    `type` is `fixed`, `planar` or `floating`; `parent_frame` belongs to the world and gets no prefix.
     """
 
     TAG = "virtual_joint"

@@ -17,8 +17,8 @@ UNREADABLE_SHAPE = Code(
 HIDDEN_COLLISIONS = Code(
     "LF7703",
     Severity.NOTE,
-    "{pair} collide in the default pose, but not in most others, where no check will find it; list them in "
-    "'enabled_collisions' to keep the check",
+    "{pair} collide in the default pose, but rarely in other poses; list them in "
+    "'enabled_collisions' to keep checking them",
     subject="pair",
 )
 ADJACENT_CHECKED = Code(

@@ -11,7 +11,7 @@ NEW_GEOMETRY = Code(
 OLD_VERSION = Code(
     "LF7003",
     _W,
-    "a robot with a capsule is URDF 1.1 or later, found version '{version}'; leave `version` out to have the right one",
+    "a robot with a capsule is URDF 1.1 or later, found version '{version}'; omit `version` to get the right one",
 )
 UNKNOWN_VERSION = Code(
     "LF7004", _W, "urdfdom reads the versions 1.0, 1.1 and 1.2 of URDF and refuses any other, found '{version}'"
@@ -19,7 +19,8 @@ UNKNOWN_VERSION = Code(
 TWO_MATERIALS = Code(
     "LF7005",
     _W,
-    "there are different materials named '{name}', and most viewers show them all as the first; give each its name",
+    "there are different materials named '{name}', and most viewers show all of them like the first; give each its "
+    "own name",
 )
 MESH_BESIDE_THE_SPEC = Code(
     "LF7006",
@@ -30,22 +31,21 @@ MESH_BESIDE_THE_SPEC = Code(
 UNDECLARED_PREFIX = Code(
     "LF7007",
     _W,
-    "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into the robot's 'extra_attributes'",
-    in_xml="no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; write it into <robot>",
+    "no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; add it to the robot's 'extra_attributes'",
+    in_xml="no 'xmlns:{prefix}' around this declares the prefix '{prefix}'; add it to <robot>",
 )
 
 # LF714x: duplicates in the output
 SECOND_OF_ONE = Code(
     "LF7145",
     _W,
-    "this is a second <{tag}>, and readers use only one of the two, mostly the first, or refuse the "
-    "file; leave one out",
+    "this is a second <{tag}>, and readers use only one of the two, mostly the first, or refuse the file; remove one",
 )
 
 RAW_NAME_IS_TAKEN = Code(
     "LF7160",
     _E,
-    "there is a {tag} '{name}' already, and readers of URDF refuse a robot with two; leave this one out, or rename it",
+    "there is already a {tag} '{name}', and URDF readers refuse a robot with two; remove or rename this one",
 )
 
 # LF708x, LF709x: what a command asks of an output
@@ -61,7 +61,7 @@ SOURCE_NOT_SHOWN = Code("LF7087", _W, "the source cannot be shown: {reason}")
 STALE_OUTPUT = Code(
     "LF7095",
     _E,
-    "out of date: '{spec}' now compiles to {expected}; compile it again, and edit it rather than this file",
+    "out of date: '{spec}' now compiles to {expected}; compile it again, and edit it instead of this file",
 )
 MISSING_OUTPUT = Code("LF7096", _E, "there is no '{path}', which '{spec}' compiles to; compile it again")
 
@@ -69,12 +69,12 @@ MISSING_OUTPUT = Code("LF7096", _E, "there is no '{path}', which '{spec}' compil
 OTHER_QUATERNION = Code(
     "LF7154",
     _E,
-    "quat_xyzw differs from rpy, which is {rpy}; readers of URDF 1.1 use the first, others the second: leave it out",
+    "quat_xyzw differs from rpy, which is {rpy}; readers of URDF 1.1 use the first, others the second: remove it",
 )
 
 # LF710x: sensors in Gazebo
 NO_JOINT_TO_SENSE = Code(
-    "LF7101", _W, "Gazebo senses forces in the joint above a link, and there is none above '{link}'"
+    "LF7101", _W, "Gazebo measures forces in the joint above a link, and there is none above '{link}'"
 )
 SENSOR_ON_MERGED_JOINT = Code(
     "LF7102",
@@ -82,9 +82,9 @@ SENSOR_ON_MERGED_JOINT = Code(
     "Gazebo merges the links of the fixed joint '{joint}' and drops its sensor; set "
     "`preserveFixedJoint: true` in the joint's `gazebo`",
 )
-NOISELESS_CONTACT = Code("LF7103", _W, "Gazebo's contact sensors have no noise; this one is left out")
-FRAME_OF_PLUGIN = Code("LF7104", _W, "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is left out")
-FOREIGN_INFO = Code("LF7105", _W, "a sensor of type {type} has no '{info}'; it is left out")
+NOISELESS_CONTACT = Code("LF7103", _W, "Gazebo's contact sensors have no noise; it is omitted")
+FRAME_OF_PLUGIN = Code("LF7104", _W, "in Gazebo Classic the plugin sets the frame of a sensor; '{frame}' is omitted")
+FOREIGN_INFO = Code("LF7105", _W, "a sensor of type {type} has no '{info}'; it is omitted")
 
 # LF72xx: templates of users
 TEMPLATE_SYNTAX = Code("LF7201", _E, "Jinja2 cannot read this template: {reason}")
@@ -92,7 +92,7 @@ UNDEFINED_IN_TEMPLATE = Code("LF7202", _E, "this template uses an undefined name
 NO_SUCH_TEMPLATE = Code("LF7203", _E, "no template '{name}' in '{folder}'")
 REFUSED_IN_TEMPLATE = Code("LF7204", _E, "a template may only read the robot: {reason}")
 TEMPLATE_FAILS = Code("LF7205", _E, "this template fails here: {reason}")
-NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template makes XML that is not well-formed: {problem}")
+NOT_XML_FROM_TEMPLATE = Code("LF7206", _E, "this template writes XML that is not well-formed: {problem}")
 UNREADABLE_TEMPLATE = Code("LF7207", _E, "template '{path}' cannot be read: {reason}")
 UNUSED_TEMPLATE = Code(
     "LF7208", _W, "'{name}' is unused: linkforge has no template of that name to replace, and no template includes it"
@@ -102,18 +102,18 @@ UNUSED_TEMPLATE = Code(
 NO_LIMIT_FOR_MOVEIT = Code(
     "LF7601",
     _W,
-    "MoveIt plans no motion of '{joint}' without a greatest {limit}; write `{limit}` in its `limits`",
+    "MoveIt cannot plan motions of '{joint}' without a maximum {limit}; write `{limit}` in its `limits`",
     subject="joint",
     grouped_by=("limit",),
 )
-NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: none that turns or slides by itself")
+NO_MOVING_JOINT = Code("LF7602", _E, "robot '{robot}' has no joint with limits: no joint turns or slides independently")
 
 NO_HARDWARE = Code("LF7603", _E, "robot '{robot}' has no `ros2_control`, so there is nothing to control")
 CONTROLLER_LACKS = Code("LF7604", _W, "controller '{controller}' of type {type} does not start without {parameter}")
 NOT_OF_CONTROLLER = Code(
     "LF7605",
     _W,
-    "a {type} has no '{field}'; that of '{controller}' is left out",
+    "a {type} has no '{field}'; omitted for '{controller}'",
     subject="controller",
     grouped_by=("type", "field"),
 )
@@ -125,11 +125,11 @@ NOT_OF_HARDWARE = Code(
     grouped_by=("controller", "what"),
 )
 NO_CONTROLLER_FOR_JOINT = Code("LF7607", _W, "no controller commands joint '{joint}'", subject="joint")
-NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt could plan for")
+NO_GROUP_TO_PLAN = Code("LF7608", _E, "robot '{robot}' has no planning group that MoveIt can plan for")
 NOTHING_EXECUTES = Code(
     "LF7609",
     _W,
-    "MoveIt executes no motion of group '{group}': {reason}",
+    "MoveIt cannot execute motions of group '{group}': {reason}",
     subject="group",
     grouped_by=("reason",),
 )
@@ -139,7 +139,7 @@ MISSPELLED_CLASS = Code("LF7613", _W, "there is no controller class '{type}'; di
 NO_GAINS = Code(
     "LF7614",
     _W,
-    "controller '{controller}' does not move joint '{joint}': it commands {interface} alone, and its `gains` are 0; "
+    "controller '{controller}' does not move joint '{joint}': it commands only {interface}, and its `gains` are 0; "
     "write `{joint}: {{p: …}}` in `gains` of its `parameters`",
     subject="joint",
     grouped_by=("controller",),
@@ -150,7 +150,7 @@ NO_JOINT_STATES = Code(
     "no controller publishes the states of the joints, which MoveIt needs; write `joint_state_broadcaster: "
     "{{type: joint_state_broadcaster/JointStateBroadcaster}}` in `controllers`",
 )
-UNKNOWN_OF_SOLVER = Code("LF7616", _W, "MoveIt reads no '{name}' in the `kinematics` of a group")
+UNKNOWN_OF_SOLVER = Code("LF7616", _W, "MoveIt does not read '{name}' in the `kinematics` of a group")
 NO_SOLVER = Code(
     "LF7617",
     _W,
@@ -165,19 +165,19 @@ STATED_TWICE = Code(
 ONE_OF_SEVERAL = Code(
     "LF7622",
     _W,
-    "a {type} accepts one name in '{field}'; '{item}' of '{controller}' is left out",
+    "a {type} accepts one name in '{field}'; '{item}' of '{controller}' is omitted",
     subject="item",
     grouped_by=("type", "field", "controller"),
 )
 LIST_OF_SEVERAL_TYPES = Code(
     "LF7623",
     _E,
-    "ROS 2 reads no parameters from a file with this list, '{parameter}' of '{controller}': items are all numbers, all "
-    "texts, or all true or false",
+    "ROS 2 refuses a parameter file with this list, '{parameter}' of '{controller}': items must be "
+    "all numbers, all strings or all booleans",
 )
 NO_NAME_OF_A_NODE = Code(
     "LF7624",
     _W,
-    "controller '{controller}' does not start: the name of a node has letters of ASCII, digits and '_' alone, and "
-    "begins with no digit",
+    "controller '{controller}' does not start: the name of a node has only ASCII letters, digits and '_', "
+    "and does not begin with a digit",
 )

@@ -37,17 +37,17 @@ WRONG_COUNT = Code("LF5008", _E, "{field} takes {expected}, found {count}", _DAT
 WIDE_ANGLE = Code(
     "LF5009",
     _W,
-    "{field} is {found} radians, more than a whole turn; write '{found} deg' if degrees are meant",
+    "{field} is {found} radians, more than a whole turn; write '{found} deg' if you mean degrees",
     _VALUE,
-    in_xml="{field} is {found} radians, {turns} turns; write '{of_degrees}' if degrees are meant",
+    in_xml="{field} is {found} radians, {turns} turns; write '{of_degrees}' if you mean degrees",
     fix=Replacement("{found}", "{found} deg", is_whole=True),
 )
 LONG_LENGTH = Code(
     "LF5010",
     _W,
-    "{field} is {found} metres; write '{found} mm' if millimetres are meant",
+    "{field} is {found} metres; write '{found} mm' if you mean millimetres",
     _VALUE,
-    in_xml="{field} is {found} metres; write '{thousandth}' if millimetres are meant",
+    in_xml="{field} is {found} metres; write '{thousandth}' if you mean millimetres",
     fix=Replacement("{found}", "{found} mm", is_whole=True),
 )
 REFUSED = Code("LF5011", _E, "{owner}: {reason}", _VALUE)
@@ -62,7 +62,7 @@ NO_MASS = Code("LF5106", _E, "{owner} needs {choices}")
 MASS_AND_DENSITY = Code("LF5107", _E, "{owner} has 'mass' and 'density'; write one of them")
 DENSITY_WITH_INERTIA = Code("LF5108", _E, "{owner} has 'inertia', which goes with 'mass', not with 'density'")
 ORIGIN_WITHOUT_INERTIA = Code(
-    "LF5109", _E, "{owner} has an 'origin' without 'inertia'; give both, or neither to have them computed"
+    "LF5109", _E, "{owner} has an 'origin' without 'inertia'; specify both, or omit both to have them computed"
 )
 SHAPE_ORDER_COUNT = Code(
     "LF5140",
@@ -70,10 +70,10 @@ SHAPE_ORDER_COUNT = Code(
     "shape_order of {owner} must list each shape once, {expected}, found {found}; or write 'pairs', "
     "for any number of them",
 )
-INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; give 'inertia'")
+INERTIA_OF_NOTHING = Code("LF5111", _E, "{owner} cannot be computed without a collision or visual; specify 'inertia'")
 
 # LF52xx: joints
-NOT_OF_THIS_TYPE = Code("LF5201", _E, "{owner} is {type} and may not have '{field}'")
+NOT_OF_THIS_TYPE = Code("LF5201", _E, "{owner} is {type} and cannot have '{field}'")
 UNKNOWN_AXIS = Code("LF5202", _E, "axis is one of x, y, z, -x, -y, -z, or three numbers, found {found}", _VALUE)
 ZERO_AXIS = Code("LF5203", _E, "axis has no direction: all three numbers are 0", _VALUE)
 LIMITS_CROSSED = Code("LF5204", _E, "lower must not be above upper, found {lower} and {upper}", _VALUE)
@@ -81,19 +81,19 @@ JOINT_TO_ITSELF = Code("LF5205", _E, "{owner} joins link '{link}' to itself")
 
 # LF53xx: modules and the semantic part
 JOINT_WITHOUT_PARENT = Code(
-    "LF5301", _E, "{owner} has '{field}' but no 'parent'; name its parent link, or leave '{field}' out"
+    "LF5301", _E, "{owner} has '{field}' but no 'parent'; name its parent link, or remove '{field}'"
 )
 VIRTUAL_JOINT_LEFT_OUT = Code(
     "LF5302",
     _N,
-    "virtual joint '{joint}' is left out{others}: the file that uses this one attaches '{link}' to another link",
+    "virtual joint '{joint}' is omitted{others}: the file that uses this one attaches '{link}' to another link",
 )
 EMPTY_GROUP = Code("LF5303", _E, "planning group '{group}' has no chain, links, joints or subgroups")
 PAIR_WITH_ITSELF = Code("LF5304", _E, "a collision pair takes two links, found '{link}' twice")
 UNKNOWN_STATE = Code("LF5305", _E, "group '{group}' has no state '{name}'; it has {states}")
 STATE_CYCLE = Code("LF5306", _E, "group states take their values from each other in a cycle: {path}")
 STATE_VALUE_TWICE = Code("LF5307", _E, "joint '{joint}' has two values in state '{state}' of group '{group}'")
-NOT_OF_MANAGER = Code("LF5308", _E, "'controller_manager' has `parameters` alone; remove '{field}'")
+NOT_OF_MANAGER = Code("LF5308", _E, "'controller_manager' can only have `parameters`; remove '{field}'")
 
 MOUNT_SAYS_ENDS = Code(
     "LF5321", _E, "{owner} is a mount and must not set '{field}'; the file that uses this one sets it"
@@ -105,7 +105,7 @@ TWO_MOUNTS = Code("LF5323", _E, "a robot has only one mount, and '{joint}' is a 
 MOUNT_AND_JOINT = Code(
     "LF5324",
     _E,
-    "{owner} has its own mount '{joint}'; leave 'joint' out, or write 'override: {{{section}: {{{joint}: …}}}}'",
+    "{owner} has its own mount '{joint}'; remove 'joint', or write 'override: {{{section}: {{{joint}: …}}}}'",
 )
 
 # LF54xx: the tree of links
@@ -115,7 +115,7 @@ LINK_CYCLE = Code("LF5403", _E, "links are each other's parents in a cycle: {pat
 SEVERAL_ROOTS = Code(
     "LF5404",
     _E,
-    "the robot has {count} roots, {roots}; join them, such as with a fixed joint from '{parent}' to '{child}'",
+    "the robot has {count} roots, {roots}; connect them, for example with a fixed joint from '{parent}' to '{child}'",
 )
 
 # LF55xx: how far joints go, and joints that follow others
@@ -138,7 +138,7 @@ EMPTY_RANGE = Code("LF5504", _W, "joint '{joint}' cannot move: its lower and upp
 RANGE_OF_ENDLESS_JOINT = Code(
     "LF5505",
     _W,
-    "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or leave them out",
+    "joint '{joint}' is continuous and turns beyond its {limits}; make it revolute, or remove them",
     subject="joint",
     grouped_by=("limits",),
 )
@@ -158,8 +158,8 @@ IDLE_SOFT_LIMIT = Code(
 FAST_JOINT = Code(
     "LF5585",
     _N,
-    "joint '{joint}' is as fast as {found} {si}{also}; write '{found} {unit}' if {units} are meant",
-    in_xml="joint '{joint}' is as fast as {found} {si}{also}; write '{expected}' if {units} are meant",
+    "joint '{joint}' has a velocity limit of {found} {si}{also}; write '{found} {unit}' if you mean {units}",
+    in_xml="joint '{joint}' has a velocity limit of {found} {si}{also}; write '{expected}' if you mean {units}",
     fix=Replacement("{found}", "{found} {unit}", is_whole=True),
 )
 MIMIC_STANDS_STILL = Code("LF5509", _W, "joint '{joint}' mimics '{leader}' with a multiplier of 0, so it stands still")
@@ -191,8 +191,8 @@ STATE_AGAINST_MIMIC = Code(
 VIRTUAL_NAME_TAKEN = Code(
     "LF5615", _W, "virtual joint '{name}' has the name of another joint, and MoveIt confuses the two; rename it"
 )
-NO_ARM = Code("LF5616", _N, "no planning group holds parent link '{link}', so MoveIt knows no arm for it")
-GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint, so MoveIt leaves it out")
+NO_ARM = Code("LF5616", _N, "no planning group contains parent link '{link}', so MoveIt finds no arm for it")
+GROUP_WITHOUT_JOINT = Code("LF5617", _W, "planning group '{group}' has no joint, so MoveIt ignores it")
 ENABLED_ANYWAY = Code(
     "LF5618",
     _N,
@@ -207,26 +207,28 @@ STATE_TAKES_OTHERS_ALONG = Code(
 ATTRIBUTE_OF_OWNER = Code(
     "LF5701", _E, "'{name}' is an attribute of the element around it; those of {owner} go into 'extra_attributes'"
 )
-LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot hold another list")
+LIST_IN_LIST = Code("LF5702", _E, "a list repeats the tag '{field}', so it cannot contain another list")
 TAG_TWICE = Code("LF5703", _E, "Gazebo's tag '{tag}' of {owner} is set twice; remove one, in an override with 'null'")
 TAG_OF_TWO_BLOCKS = Code(
-    "LF5780", _W, "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo takes the last"
+    "LF5780",
+    _W,
+    "Gazebo's tag '{tag}' of '{owner}' is {found} here, {first} in another block; Gazebo uses the last one",
 )
 UNPREFIXED_NAME = Code(
     "LF5704",
     _W,
-    "'{name}' is a {kind} of this file and takes the prefix, but not here; {remedy}",
+    "'{name}' is a {kind} of this file and gets the prefix, but not here; {remedy}",
     fix=Replacement("{name}", "$({kind}('{name}'))"),
     subject="name",
     grouped_by=("kind",),
 )
 ABSOLUTE_TOPIC = Code(
-    "LF5705", _W, "'{topic}' is an absolute topic and takes no prefix, so every use of this file publishes there"
+    "LF5705", _W, "'{topic}' is an absolute topic and gets no prefix, so every use of this file publishes there"
 )
 UNPREFIXED_HARDWARE = Code(
     "LF5706",
     _W,
-    "'{key}' of hardware '{control}' stays {value}, but its {part} takes the prefix; {remedy}",
+    "'{key}' of hardware '{control}' stays {value}, but its {part} gets the prefix; {remedy}",
     fix=Replacement("{bare}", "$(prefix){bare}"),
 )
 SCANNER_WITHOUT_RAYS = Code(
@@ -239,6 +241,6 @@ SCANNER_WITHOUT_RAYS = Code(
 UNPREFIXED_TOPICS = Code(
     "LF5754",
     _W,
-    "plugins of this file name topics, frames or collisions, which take no prefix: {names}; change what two "
-    "uses must not share with 'override' where the file is used",
+    "plugins of this file name topics, frames or collisions, which get no prefix: {names}; where the file is "
+    "used, change with 'override' those that two uses must not share",
 )

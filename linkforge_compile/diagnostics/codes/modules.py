@@ -30,14 +30,14 @@ MODULE_FIELD = Code("LF3011", _E, "'{field}' of module '{name}' takes {expected}
 NOT_A_MODULE = Code("LF3015", _E, "module '{name}' is a map with 'use', found {found}")
 MODULES_NOT_MAP = Code("LF3016", _E, "'modules' is a map of modules by name, found {found}")
 SRDF_BESIDE_SPEC = Code("LF3017", _E, "'srdf' is for a URDF or a xacro; '{path}' has 'semantic' instead")
-MACRO_OF_NO_XACRO = Code("LF3018", _E, "'macro' is for a xacro file; '{path}' is none")
+MACRO_OF_NO_XACRO = Code("LF3018", _E, "'macro' applies only to a xacro file; '{path}' is not one")
 USE_CYCLE = Code("LF3012", _E, "modules use each other in a cycle: {path}")
 USE_TOO_DEEP = Code("LF3013", _E, "modules are used inside modules more than {limit} deep")
 
 # LF302x: parameters and what sets them
 UNKNOWN_PARAMETER = Code("LF3020", _E, "no parameter named '{name}'")
 PARAMETER_NOT_SET = Code("LF3021", _E, "{what} no default and must be set; write {remedy}")
-NOT_CHECKED = Code("LF3022", _N, "nothing sets {names} here, so what depends on {pronoun} is not checked")
+NOT_CHECKED = Code("LF3022", _N, "nothing sets {names} here, so parts that depend on {pronoun} are not checked")
 PARAMETER_KIND = Code("LF3023", _E, "parameter '{parameter}' takes {expected}, found {found}", _DATA)
 PARAMETER_TOO_SMALL = Code("LF3024", _E, "parameter '{parameter}' must be at least {bound}, found {found}", _VALUE)
 PARAMETER_TOO_LARGE = Code("LF3025", _E, "parameter '{parameter}' must be at most {bound}, found {found}", _VALUE)
@@ -53,7 +53,7 @@ BAD_PATTERN = Code("LF3032", _E, "'{pattern}' cannot be a pattern: {reason}")
 CROSSED_BOUNDS = Code(
     "LF3033", _E, "parameter '{parameter}' can have no value: 'minimum' is {minimum}, 'maximum' {maximum}"
 )
-NO_CHOICE = Code("LF3034", _E, "parameter '{parameter}' can have no value: 'enum' is empty; list what it may be")
+NO_CHOICE = Code("LF3034", _E, "parameter '{parameter}' can have no value: 'enum' is empty; list the allowed values")
 
 # LF304x: names of parameters and variables
 INVALID_VARIABLE_NAME = Code(
@@ -70,12 +70,12 @@ TEXT_NOT_NUMBER = Code("LF3053", _E, "text with an expression inside is never a 
 
 # LF306x: include
 INCLUDE_NOT_PLAIN = Code("LF3060", _E, "an include is a path of a file, {reason}; found '{path}'")
-ENTRY_IN_TWO_FILES = Code("LF3061", _E, "{entry} is in two files that 'include' joins; keep it in one of them")
+ENTRY_IN_TWO_FILES = Code("LF3061", _E, "{entry} is in two files that are joined by 'include'; keep it in one of them")
 SET_BY_MAIN_FILE = Code(
     "LF3062", _E, "an included file must not set '{key}'; set it in the file that includes this one"
 )
 INCLUDE_CYCLE = Code("LF3063", _E, "files include each other in a cycle: {path}")
-INCLUDED_TWICE = Code("LF3064", _E, "'{path}' is included already")
+INCLUDED_TWICE = Code("LF3064", _E, "'{path}' is already included")
 INCLUDE_TOO_DEEP = Code("LF3065", _E, "files are included inside files more than {limit} deep")
 TOO_MANY_INCLUDES = Code("LF3066", _E, "more than {limit} files are included")
 
@@ -90,15 +90,15 @@ VARIANTS_DISAGREE = Code(
 )
 
 # LF309x: what depends on how the file is used
-PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; leave $(prefix) out")
+PREFIX_TWICE = Code("LF3090", _E, "{place} gets the prefix automatically; remove $(prefix)")
 NAME_OUTSIDE_TEXT = Code("LF3091", _E, "{function} is allowed only in free parts and 'extra'; elsewhere write the name")
 PATH_OF_THIS_MACHINE = Code(
-    "LF3092", _W, "path() ties the output to this machine; write 'package://NAME/PATH', or pass it in by 'with'"
+    "LF3092", _W, "path() ties the output to this machine; write 'package://NAME/PATH', or pass it with 'with'"
 )
 FILE_OUTSIDE_PACKAGE = Code(
     "LF3093",
     _W,
-    "'{path}' lies outside the module's package, so its absolute path ties the output to this machine; "
+    "'{path}' is outside the module's package, so its absolute path ties the output to this machine; "
     "write 'package://NAME/PATH'",
 )
 

@@ -8,7 +8,7 @@ _VALUE = Location.VALUE
 
 INVALID_NAME = Code("LF4001", _E, "'{name}' is not a valid {kind}: {reason}", _VALUE)
 RESERVED_NAME = Code("LF4002", _W, "Gazebo refuses a {kind} named '{name}', which it reserves; choose another name")
-FRAME_WITH_SLASH = Code("LF4003", _W, "tf2 refuses frame '{name}', which begins with '/'; leave it out")
+FRAME_WITH_SLASH = Code("LF4003", _W, "tf2 refuses frame '{name}', which begins with '/'; remove the '/'")
 REFUSED_TOPIC = Code("LF4004", _W, "ROS 2 refuses topic '{topic}': {reason}")
 
 DUPLICATE_NAME = Code("LF4101", _E, "there are two {kind}s named '{name}'")
@@ -43,4 +43,4 @@ OWN_ATTRIBUTE_STAYS = Code(
 UNKNOWN_GAZEBO_REFERENCE = Code("LF4201", _W, "no link or joint named '{name}'")
 UNKNOWN_FRAME = Code("LF4202", _W, "no link named '{name}', so tf2 cannot tell where this frame is")
 UNKNOWN_PLUGIN_JOINT = Code("LF4203", _N, "no joint named '{name}' for plugin '{plugin}'")
-UNKNOWN_COLLISION = Code("LF4204", _W, "no collision named '{name}', so this sensor will touch nothing")
+UNKNOWN_COLLISION = Code("LF4204", _W, "no collision named '{name}', so this sensor reports no contacts")

@@ -22,7 +22,7 @@ INDEFINITE_INERTIA = Code(
 IMPOSSIBLE_INERTIA = Code(
     "LF6003",
     _W,
-    "no principal moment of inertia of link '{link}' may be above the sum of the others, found {moments}",
+    "one principal moment of inertia of link '{link}' exceeds the sum of the others, found {moments}",
     _VALUE,
 )
 FLATTER_THAN_A_PLATE = Code(
@@ -35,17 +35,19 @@ FLATTER_THAN_A_PLATE = Code(
     grouped_by=("excess",),
 )
 MASSLESS_BODY = Code(
-    "LF6004", _N, "joint '{joint}' moves link '{link}', which has no mass: Gazebo leaves it out with all below it{also}"
+    "LF6004",
+    _N,
+    "joint '{joint}' moves link '{link}', which has no mass: Gazebo drops it with everything below it{also}",
 )
-MASSLESS_ROOT = Code("LF6006", _N, "root link '{link}' has no mass: Gazebo leaves it out with all below it{also}")
-TINY_MASS = Code("LF6005", _W, "joint '{joint}' moves link '{link}' of {mass} kg, which Gazebo leaves out as massless")
+MASSLESS_ROOT = Code("LF6006", _N, "root link '{link}' has no mass: Gazebo drops it with everything below it{also}")
+TINY_MASS = Code("LF6005", _W, "joint '{joint}' moves link '{link}' of {mass} kg, which Gazebo drops as massless")
 
 # LF601x: meshes whose inertia is to be computed
 NO_MESH_LIBRARY = Code(
     "LF6010",
     _E,
     "the inertia of mesh '{path}' needs the Python package {library}; run \"pip install "
-    "'linkforge-compile[mesh]'\", or give 'inertia'",
+    "'linkforge-compile[mesh]'\", or specify 'inertia'",
 )
 NO_SUCH_MESH = Code("LF6011", _E, "there is no mesh '{path}', so no inertia can be computed from it", _VALUE)
 UNREADABLE_MESH = Code("LF6012", _E, "mesh '{path}' cannot be read, so no inertia can be computed from it: {reason}")
@@ -54,10 +56,10 @@ MESH_TOO_LARGE = Code(
     "LF6014", _E, "mesh '{path}' is too large to compute an inertia from: {reason}; give it a simpler collision mesh"
 )
 EMPTY_MESH = Code("LF6015", _E, "mesh '{path}' has no shape: {reason}")
-OPEN_MESH = Code("LF6016", _E, "mesh '{path}' is not watertight: {reason}; close it, or give 'inertia'")
+OPEN_MESH = Code("LF6016", _E, "mesh '{path}' is not watertight: {reason}; close it, or specify 'inertia'")
 TWISTED_MESH = Code("LF6017", _E, "mesh '{path}' faces both ways: {reason}; make its normals consistent")
 INSIDE_OUT_MESH = Code("LF6018", _E, "mesh '{path}' is inside out: {reason}; flip its normals")
-FLAT_MESH = Code("LF6019", _E, "mesh '{path}' is no solid body: {reason}")
+FLAT_MESH = Code("LF6019", _E, "mesh '{path}' is not a solid body: {reason}")
 WIDE_MESH = Code(
     "LF6020",
     _W,
@@ -67,12 +69,14 @@ WIDE_MESH = Code(
 
 # LF602x, past the width: mesh files that are at hand
 MISSING_MESH = Code("LF6021", _W, "there is no mesh '{path}'")
-HOLLOW_MESH_FILE = Code("LF6022", _W, "mesh '{path}' holds no shape: {reason}")
+HOLLOW_MESH_FILE = Code("LF6022", _W, "mesh '{path}' contains no shape: {reason}")
 CAD_MESH = Code(
-    "LF6023", _W, "mesh '{path}' is a .{ending} file, which no reader of URDF loads; export it as .stl or .dae"
+    "LF6023", _W, "mesh '{path}' is a .{ending} file, which no URDF reader loads; export it as .stl or .dae"
 )
 MIRRORED_COLLISIONS = Code(
-    "LF6024", _N, "collision meshes of {links} are mirrored by their scale, and Gazebo Sim makes no collision of them"
+    "LF6024",
+    _N,
+    "collision meshes of {links} are mirrored by their scale, and Gazebo Sim creates no collisions from them",
 )
 FINE_COLLISIONS = Code(
     "LF6025", _N, "collisions of {links} are the visual meshes, with {triangles} triangles; contacts will be slow"
@@ -83,13 +87,13 @@ MISSPELT_PACKAGE = Code("LF6026", _W, "package '{name}' of mesh '{path}' is not 
 LIGHT_LINK = Code(
     "LF6030",
     _W,
-    "link '{link}' of {mass} kg is lighter than air: {density} kg/m³ in its shapes; is one in another unit?",
+    "link '{link}' of {mass} kg is lighter than air: {density} kg/m³ in its shapes; is one of the units wrong?",
 )
 DENSE_LINK = Code(
     "LF6031",
     _W,
     "link '{link}' of {mass} kg is denser than any metal: {density} kg/m³ in the box around its shapes; "
-    "is one in another unit?",
+    "is one of the units wrong?",
 )
 LARGE_INERTIA = Code("LF6032", _W, "inertia of link '{link}' is {factor} times that of the box around its shapes{hint}")
 SMALL_INERTIA = Code("LF6033", _N, "inertia of link '{link}' is {factor} of that of the box around its shapes")
@@ -127,41 +131,43 @@ MERGED_LINK_NAMED = Code(
 UNTOUCHED_VISUALS = Code(
     "LF6050",
     _N,
-    "link '{link}' has a visual and no collision, so everything passes through",
+    "link '{link}' has a visual and no collision, so everything passes through it",
     subject="link",
 )
 UNSEEN_COLLISIONS = Code(
     "LF6051",
     _N,
-    "link '{link}' has a collision and no visual, so what others touch is invisible",
+    "link '{link}' has a collision and no visual, so it collides but is invisible",
     subject="link",
 )
 
 # LF61xx: ros2_control
-COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is commanded by {first} already")
-READ_TWICE = Code("LF6102", _W, "interface '{interface}' is read by {first} already")
+COMMANDED_TWICE = Code("LF6101", _E, "interface '{interface}' is already commanded by {first}")
+READ_TWICE = Code("LF6102", _W, "interface '{interface}' is already read by {first}")
 FIXED_JOINT_CONTROLLED = Code("LF6103", _W, "joint '{joint}' is fixed, so ros2_control has nothing to read or command")
 MIMIC_COMMANDED = Code(
-    "LF6104", _W, "joint '{joint}' mimics '{leader}', so ros2_control refuses to command it; leave its state interfaces"
+    "LF6104",
+    _W,
+    "joint '{joint}' mimics '{leader}', so ros2_control refuses to command it; keep only its state interfaces",
 )
 MIMIC_APART = Code(
-    "LF6105", _W, "joint '{joint}' mimics '{leader}', which ros2_control misses in this system; list both in one"
+    "LF6105",
+    _W,
+    "joint '{joint}' mimics '{leader}', which is not in this ros2_control system; list both joints in one system",
 )
-NO_MIMIC = Code("LF6106", _W, "joint '{joint}' is to mimic another in ros2_control, but has no 'mimic' of its own")
-UNKNOWN_INTERFACE = Code("LF6107", _W, "ros2_control has no interface '{name}' of its own")
-PARAMETER_NO_NUMBER = Code("LF6108", _W, "{parameter} is a number in SI units to ros2_control, found '{found}'")
+NO_MIMIC = Code("LF6106", _W, "joint '{joint}' should mimic another joint in ros2_control, but has no 'mimic' itself")
+UNKNOWN_INTERFACE = Code("LF6107", _W, "ros2_control defines no interface '{name}'")
+PARAMETER_NO_NUMBER = Code("LF6108", _W, "{parameter} must be a number in SI units for ros2_control, found '{found}'")
 RANGE_CROSSED = Code("LF6109", _W, "min must not be above max, found {min} and {max}")
-RANGE_OUTSIDE_LIMITS = Code(
-    "LF6110", _W, "joint '{joint}' goes {range}, which has nothing in common with {min} to {max}"
-)
+RANGE_OUTSIDE_LIMITS = Code("LF6110", _W, "joint '{joint}' goes {range}, which does not overlap with {min} to {max}")
 STARTS_OUTSIDE_LIMITS = Code("LF6111", _W, "joint '{joint}' goes {range}, but starts at {found}")
 NO_INTERFACE = Code("LF6112", _N, "{owner} has no interface, so no controller can use it")
 UNRESOLVED_PACKAGE = Code(
     "LF6114",
     _W,
-    "plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write '$(path('{path}'))'",
+    "plugin '{plugin}' opens '{path}' as a plain file name, without resolving the package; write '$(path('{path}'))'",
     fix=Replacement("{path}", "$(path('{path}'))"),
-    in_xml="plugin '{plugin}' opens '{path}' under just this name, without looking for the package; write the path of "
+    in_xml="plugin '{plugin}' opens '{path}' as a plain file name, without resolving the package; write the path of "
     "the file, in a xacro '$(find {package})'",
 )
 RANGE_FAR_BEYOND = Code(

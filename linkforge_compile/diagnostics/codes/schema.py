@@ -6,10 +6,12 @@ from linkforge_compile.source.provenance import Location
 _E = Severity.ERROR
 _DATA, _VALUE = Location.DATA, Location.VALUE
 
-MISSING_VERSION = Code("LF2001", _E, "write 'linkforge: 1' first: it says which version of the language the file is in")
+MISSING_VERSION = Code(
+    "LF2001", _E, "write 'linkforge: 1' first: it states which version of the language the file uses"
+)
 OTHER_VERSION = Code("LF2002", _E, "'linkforge' takes 1, the version of the language, found {found}")
 MISSING_NAME = Code(
-    "LF2003", _E, "a robot needs a 'name'; a file for 'include' is checked with the one that includes it"
+    "LF2003", _E, "a robot needs a 'name'; a file for 'include' is checked with the file that includes it"
 )
 UNKNOWN_KEY = Code("LF2101", _E, "'{name}' is not a key of {owner}{hint}", _VALUE)
 SECTION_LINE_LOST = Code(

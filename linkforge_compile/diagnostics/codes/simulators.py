@@ -8,7 +8,7 @@ _E, _W = Severity.ERROR, Severity.WARNING
 NESTED_TOO_DEEP = Code(
     "LF7401",
     _E,
-    "MuJoCo cannot read bodies nested deeper than {most}, found {depth} links one below the other",
+    "MuJoCo cannot read bodies nested deeper than {most}, found a chain of {depth} links",
 )
 MASSLESS_IN_MUJOCO = Code(
     "LF7402",
@@ -27,7 +27,7 @@ IMPOSSIBLE_FOR_MUJOCO = Code(
 MESH_FOR_MUJOCO = Code(
     "LF7404",
     _W,
-    "mesh '{file}' is left out of the MJCF: {reason}",
+    "mesh '{file}' is omitted from the MJCF: {reason}",
     subject="file",
     grouped_by=("reason",),
     is_loss=True,
@@ -35,7 +35,7 @@ MESH_FOR_MUJOCO = Code(
 NOT_IN_MJCF = Code(
     "LF7405",
     _W,
-    "MJCF has no {parts}; that of '{name}' is left out",
+    "MJCF has no {parts}; omitted for '{name}'",
     subject="name",
     grouped_by=("parts",),
     is_loss=True,
@@ -44,13 +44,13 @@ NOT_IN_MJCF = Code(
 WORLD_BELOW_JOINT = Code(
     "LF7406",
     _E,
-    "MuJoCo has the name '{name}' for the ground, so no link below a joint can have it; rename this one",
+    "MuJoCo reserves the name '{name}' for the ground, so no link below a joint can have it; rename this one",
 )
 
 ONE_ACTUATOR = Code(
     "LF7407",
     Severity.NOTE,
-    "joint '{joint}' has an actuator for its command interface '{interface}' alone, and none for {others} in the MJCF",
+    "joint '{joint}' has an actuator for its command interface '{interface}' only, not for {others} in the MJCF",
     subject="joint",
     grouped_by=("interface", "others"),
     is_loss=True,
@@ -58,7 +58,7 @@ ONE_ACTUATOR = Code(
 NO_GAIN = Code(
     "LF7408",
     _W,
-    "the {interface} actuator of joint '{joint}' has MuJoCo's gain of 1; write `{gain}` into its parameters",
+    "the {interface} actuator of joint '{joint}' has MuJoCo's gain of 1; write `{gain}` in its parameters",
     subject="joint",
     grouped_by=("interface",),
 )
@@ -66,24 +66,26 @@ NO_GAIN = Code(
 OPPOSITE_SIGN = Code(
     "LF7409",
     Severity.NOTE,
-    "MuJoCo senses the force of the parent on the child, so the signs of '{sensor}' are opposite",
+    "MuJoCo measures the force of the parent on the child, so the signs of '{sensor}' are opposite",
     subject="sensor",
     is_loss=True,
 )
 TAKEN_IN_MUJOCO = Code(
-    "LF7410", _E, "MuJoCo refuses two {parts} of one name, and '{name}' is the name of {owner} as well; rename this one"
+    "LF7410",
+    _E,
+    "MuJoCo refuses two {parts} with the same name, and '{name}' is also the name of {owner}; rename this one",
 )
 NO_VELOCITY_LIMIT = Code(
     "LF7411",
     _W,
-    "MuJoCo does not limit velocities; the limit of joint '{joint}' is left out",
+    "MuJoCo does not limit velocities; the limit of joint '{joint}' is omitted",
     subject="joint",
     is_loss=True,
 )
 NO_MESSAGES = Code(
     "LF7412",
     _W,
-    "MuJoCo measures at every step and sends no messages; rate, topic and frame of '{sensor}' are left out",
+    "MuJoCo measures at every step and sends no messages; rate, topic and frame of '{sensor}' are omitted",
     subject="sensor",
     is_loss=True,
 )
@@ -91,7 +93,7 @@ NO_MESSAGES = Code(
 FOR_OTHER_PROGRAMS = Code(
     "LF7413",
     _W,
-    "MuJoCo does not read {parts}; that of '{name}' is left out",
+    "MuJoCo does not read {parts}; omitted for '{name}'",
     subject="name",
     grouped_by=("parts",),
     is_loss=True,
@@ -113,7 +115,7 @@ BASE_STAYS_FIXED = Code(
 NOT_IN_SDF = Code(
     "LF7501",
     _W,
-    "SDF has no {parts}; that of '{name}' is left out",
+    "SDF has no {parts}; omitted for '{name}'",
     subject="name",
     grouped_by=("parts",),
     is_loss=True,
@@ -143,14 +145,14 @@ RESERVED_IN_SDF = Code("LF7505", _E, "'{name}' is reserved in SDF; rename this o
 NO_MIMIC_IN_SDF = Code(
     "LF7506",
     _W,
-    "SDF 1.9 has no mimic joints, so '{joint}' moves by itself; leave out `--sdf 1.9`, or choose 1.11",
+    "SDF 1.9 has no mimic joints, so '{joint}' moves freely; remove `--sdf 1.9`, or set it to 1.11",
     subject="joint",
     is_loss=True,
 )
 FREE_IN_SDF = Code(
     "LF7507",
     _W,
-    "SDF has no planar joints, so '{joint}' is left out and link '{link}' moves freely",
+    "SDF has no planar joints, so '{joint}' is omitted and link '{link}' moves freely",
     subject="joint",
     is_loss=True,
 )
@@ -174,22 +176,23 @@ TAKEN_IN_SDF = Code("LF7510", _E, "Gazebo refuses two parts of '{owner}' with th
 NO_COLLISION_IN_SDF = Code(
     "LF7511",
     _W,
-    "contact sensor '{sensor}' feels nothing, since link '{link}' has no collision '{collision}' in the SDF{hint}",
+    "contact sensor '{sensor}' detects nothing, because link '{link}' has no collision '{collision}' in the SDF{hint}",
 )
 NOT_IN_ITS_MODULE = Code(
     "LF7512",
     Severity.NOTE,
-    "gz_ros2_control finds no joints in nested models, so '{joint}' is in that of the robot, and not of its module",
+    "gz_ros2_control finds no joints in nested models, so '{joint}' is in the model of the robot, not in that of its "
+    "module",
     subject="joint",
     is_loss=True,
 )
 NO_BODY_IN_SDF = Code(
-    "LF7513", _E, "Gazebo refuses a model without links, as '{robot}' is; give it one that is not `world`"
+    "LF7513", _E, "Gazebo refuses a model without links, such as '{robot}'; add a link that is not `world`"
 )
 MIMIC_OF_ENGINE = Code(
     "LF7514",
     Severity.NOTE,
-    "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves by itself; choose bullet-featherstone, or "
+    "DART, Gazebo's default engine, ignores mimic joints, so '{joint}' moves freely; choose bullet-featherstone, or "
     "have gz_ros2_control move it",
     subject="joint",
     is_loss=True,

@@ -13,7 +13,7 @@ RESERVED_START = Code("LF1003", _E, "text cannot begin with '{character}'; put i
 SPACE_AFTER_COLON = Code("LF1004", _E, "a space is missing after the colon in '{text}'", fix=_SAFE_TEXT)
 SPACE_AFTER_DASH = Code("LF1005", _E, "a space is missing after the dash in '{text}'", fix=_SAFE_TEXT)
 MISSING_COLON = Code("LF1006", _E, "a colon is missing after '{text}'", fix=Replacement("{text}", "{text}:"))
-SECOND_COLON = Code("LF1007", _E, "a second ': ' on this line; put text that holds one in quotes{or_map}")
+SECOND_COLON = Code("LF1007", _E, "a second ': ' on this line; put text that contains one in quotes{or_map}")
 UNCLOSED_QUOTE = Code("LF1008", _E, "no closing quote for the text that begins here")
 UNCLOSED_BRACKET = Code("LF1009", _E, "expected ',' or '{closing}' before this")
 UNQUOTED_EXPRESSION = Code(
@@ -26,11 +26,11 @@ KEY_AMONG_ITEMS = Code("LF1014", _E, "expected a list item '- ...' as above, fou
 LIST_ON_KEY_LINE = Code("LF1015", _E, "a list with dashes must begin on a new line; on one line write [a, b]")
 TEXT_AFTER_VALUE = Code("LF1016", _E, "the value ended before this; put the whole text in quotes")
 COMMA_AFTER_VALUE = Code(
-    "LF1057", _E, "unexpected ',': no list or map is open; leave it out", fix=Replacement(",", "", is_safe=True)
+    "LF1057", _E, "unexpected ',': no list or map is open; remove it", fix=Replacement(",", "", is_safe=True)
 )
 MISSING_VALUE = Code("LF1017", _E, "expected a value, found {found}")
 UNKNOWN_ESCAPE = Code("LF1018", _E, "unknown escape '{text}' in double quotes; use single quotes")
-FORBIDDEN_CHARACTER = Code("LF1019", _E, "a spec cannot hold the character {character}")
+FORBIDDEN_CHARACTER = Code("LF1019", _E, "a spec cannot contain the character {character}")
 XACRO_EXPRESSION = Code("LF1020", _E, "'{text}' is xacro syntax; write '{ours}'", fix=_SAFE_TEXT)
 XACRO_IN_FREE_TEXT = Code(
     "LF1075",
@@ -52,7 +52,7 @@ OUTDENTED_LINE = Code(
     "LF1077", _W, "editors refuse this line of a list or map in brackets; begin it with at least {spaces}"
 )
 BRACKET_TOO_MANY = Code(
-    "LF1076", _E, "unmatched '{bracket}': no list or map is open; leave it out", fix=Replacement("{bracket}", "")
+    "LF1076", _E, "unmatched '{bracket}': no list or map is open; remove it", fix=Replacement("{bracket}", "")
 )
 
 DUPLICATE_KEY = Code("LF1101", _E, "the key '{key}' is written twice{more}")
@@ -66,15 +66,15 @@ EMPTY_DOCUMENT = Code("LF1109", _E, "the file is empty; a spec begins with 'link
 TOP_LEVEL_NOT_MAP = Code("LF1110", _E, "expected keys such as 'name:' and 'links:', found {found}")
 MERGE_NOT_MAP = Code("LF1111", _E, "'<<' merges a map or a list of maps, found {found}")
 OTHER_TAG = Code("LF1113", _E, "the only YAML tags allowed here are {known} before a number, found '{tag}'")
-EMPTY_DATA = Code("LF1114", _E, "the data file is empty; write the values that it is to hold")
-UNSAFE_FORMAT = Code("LF1115", _E, "formatting would change more than white space here; the file stays as it is")
+EMPTY_DATA = Code("LF1114", _E, "the data file is empty; write its values")
+UNSAFE_FORMAT = Code("LF1115", _E, "formatting would change more than white space here; the file is not changed")
 NUMBER_TOO_LARGE = Code("LF1112", _E, "the number is beyond what a double can hold")
 
 # LF12xx: comments that suppress diagnostics
 IGNORE_WITHOUT_CODE = Code(
-    "LF1201", _W, "this names no code to ignore; write '# linkforge: ignore' and codes such as LF6003"
+    "LF1201", _W, "this comment names no code to ignore; write '# linkforge: ignore' and codes such as LF6003"
 )
 IGNORE_OF_UNKNOWN_CODE = Code("LF1202", _W, "no diagnostic has the code '{name}'{hint}")
 IGNORE_OF_ERROR = Code("LF1203", _W, "{code} is an error, which cannot be ignored")
 NOTHING_TO_IGNORE = Code("LF1204", _N, "{code} is not reported on line {line}; remove it from this comment")
-IGNORE_MISWRITTEN = Code("LF1275", _W, "this ignores nothing; write '# linkforge: ignore {codes}'")
+IGNORE_MISWRITTEN = Code("LF1275", _W, "this comment ignores nothing; write '# linkforge: ignore {codes}'")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _KINDS = ("velocity", "acceleration", "deceleration", "jerk")
 _OFTEN_UNKNOWN = ("deceleration", "jerk")
-"""Limits that are left out where they are unknown; MoveIt takes an acceleration for a deceleration."""
+"""Limits that are omitted where they are unknown; MoveIt takes an acceleration for a deceleration."""
 
 
 def limits_view(robot: Robot) -> View:

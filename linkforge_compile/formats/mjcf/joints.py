@@ -58,7 +58,7 @@ def symmetric(bound: float) -> tuple[float, float] | None:
 
 
 def range_of(limits: JointLimits) -> tuple[float, float]:
-    """Return the lower and upper limit; a missing one is 0, as to readers of URDF."""
+    """Return the lower and upper limit; a missing one is 0, as to URDF readers."""
     return limits.lower or 0.0, limits.upper or 0.0
 
 

@@ -43,7 +43,7 @@ MAX_DEPTH = 490
 
 
 def mjcf_limits(robot: Robot, *, is_free: bool) -> Iterator[Diagnostic]:
-    """Yield what is left out or changed in the MJCF of a robot, and what MuJoCo refuses."""
+    """Yield what is omitted or changed in the MJCF of a robot, and what MuJoCo refuses."""
     yield from check_texts(robot, doubtful_parts_of_urdf(robot))
     tree = KinematicTree.of(robot)
     if (depth := tree.depth()) > MAX_DEPTH:

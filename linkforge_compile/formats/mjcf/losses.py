@@ -28,7 +28,7 @@ OF_OTHER_PROGRAMS = (_GAZEBO, _TRANSMISSIONS, _GPIOS, _HARDWARE, PLUGINS)
 
 
 def lost_parts(robot: Robot) -> Iterator[Loss]:
-    """Yield each part that is left out, under the words for its kind."""
+    """Yield each part that is omitted, under the words for its kind."""
     for sensor in robot.sensors:
         for parts, path in sensor_losses(sensor):
             yield Loss(parts, sensor.name, sensor.source, path)
@@ -106,7 +106,7 @@ def _undriven(hardware: Ros2ControlJoint, joint: Joint) -> Iterator[Loss]:
 
 
 def _raw_xml(robot: Robot) -> Iterator[Loss]:
-    """Yield raw XML and attributes, but for those of parts that are left out as a whole."""
+    """Yield raw XML and attributes, but for those of parts that are omitted as a whole."""
     kept = doubtful_parts_in(tuple(robot.materials.values()), robot.links, robot.joints, robot.ros2_controls)
     semantic = doubtful_parts_in(robot.semantic if robot.has_semantic else ())
     for name, source, path in lost_xml(robot, (*kept.with_extras, *semantic.with_extras)):

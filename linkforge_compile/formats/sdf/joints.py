@@ -37,7 +37,7 @@ def joint_view(
 
 
 def _axis(joint: Joint, models: Models, settings: Settings, *, has_mimic: bool) -> Xml:
-    """Return an axis; a missing limit is 0, as to readers of URDF, and a continuous joint has none."""
+    """Return an axis; a missing limit is 0, as to URDF readers, and a continuous joint has none."""
     limits, dynamics, source = joint.limits, joint.dynamics, joint.source
     of_limits: list[Xml] = []
     if limits:

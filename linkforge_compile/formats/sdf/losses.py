@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def lost_parts(robot: Robot, layout: Layout) -> Iterator[Loss]:
-    """Yield each part that is left out, under the words for its kind."""
+    """Yield each part that is omitted, under the words for its kind."""
     yield from _losses_of_world(robot, layout)
     for joint in robot.joints:
         yield from _of_joint(joint, robot)

@@ -105,7 +105,7 @@ def check_materials_of_one_name(robot: Robot) -> Iterator[Diagnostic]:
 
 
 def check_force_torque(sensor: Sensor, robot: Robot) -> Iterator[Diagnostic]:
-    """Gazebo senses forces in a joint: the one above the sensor's link.
+    """Gazebo measures forces in a joint: the one above the sensor's link.
 
     It merges links that a fixed joint holds together, unless the joint's Gazebo block says otherwise, and such a
     joint's sensor is gone.

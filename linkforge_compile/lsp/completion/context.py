@@ -169,7 +169,7 @@ class Context:
 def _read_around(context: Context) -> YamlNode | None:
     """Read the section of a text that the word of a position is in, with MARKER in place of the word.
 
-    If what follows the position cannot be read, it is left out.
+    If what follows the position cannot be read, it is omitted.
     """
     file, line = context.document.file, context.cursor.word.line
     is_new_key = context.cursor.role is Role.KEY and context.cursor.is_own_line
