@@ -27,7 +27,7 @@ def domain_of(symbol: Symbol, given: str | None, default: str | None) -> tuple[s
         values |= dict.fromkeys(("true", "false")) if base not in ("True", "False") else {"True": None, "False": None}
     elif symbol.choices:
         values |= dict.fromkeys(symbol.choices)
-        values[OTHER_WORD] = None
+        values |= {} if symbol.is_closed else {OTHER_WORD: None}
     return tuple(values)
 
 

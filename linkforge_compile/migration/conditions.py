@@ -9,10 +9,13 @@ from typing import TypeAlias
 from linkforge_compile.migration.logic import negated
 from linkforge_compile.migration.placeholders import key_of
 from linkforge_compile.migration.symbols import (
+    TEXT,
+    UNKNOWN,
     UNSET,
     NotConstantError,
     Parts,
     Reference,
+    Symbol,
     as_expression,
     joined,
     literal_of,
@@ -143,6 +146,24 @@ def _can(outcomes: Outcomes, atom: ast.expr, atoms: Mapping[str, ast.expr]) -> b
         outcome and (other := _side(atoms[key])) is not None and other[0] == side[0] and other[1] != side[1]
         for key, outcome in outcomes.items()
     )
+
+
+def close(refused: Sequence[Outcomes], atoms: Mapping[str, ast.expr]) -> None:
+    """Note the parameters that must have one of the words that they are compared with.
+
+    That is so if each of some outcomes that are not valid is that of none of these words.
+    """
+    words: dict[Symbol, list[str]] = {}
+    for key, atom in atoms.items():
+        match atom:
+            case ast.Compare(left=Reference(symbol=symbol), ops=[ast.Eq()], comparators=[_]):
+                if symbol.role == "parameter" and symbol.kind in (TEXT, UNKNOWN):
+                    words.setdefault(symbol, []).append(key)
+    for symbol, keys in words.items():
+        default = "".join(map(str, symbol.value or ()))
+        are_all = refused and not any(one[key] for one in refused for key in keys)
+        if are_all and (symbol.value is None or default in symbol.choices):
+            symbol.is_closed = True
 
 
 def _side(atom: ast.expr) -> tuple[str, object] | None:

@@ -10,6 +10,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.importers.link import are_shapes_of
 from linkforge_compile.importers.urdf import read_urdf
+from linkforge_compile.migration.conditions import close
 from linkforge_compile.migration.dimensions import settle_dimensions
 from linkforge_compile.migration.groups import MARK, NAMED, REST, Group, Groups
 from linkforge_compile.migration.inertia import Place
@@ -146,6 +147,7 @@ class FileMaker:
             raw.append((outcomes, raw_element(tree, group.key) if is_raw else None))
         if not self._keeps_raw:
             kept = valid_variants([node for _, node in found], [node for _, node in raw])
+            close([one for number, (one, _) in enumerate(found) if number not in kept], group.atoms)
             found, raw = [found[number] for number in kept], [raw[number] for number in kept]
         node = self._merged(group, found, merger)
         self._extra += [one for one in self._merged_raw(group, raw, merger) if one is not None]

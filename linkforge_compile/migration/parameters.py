@@ -87,6 +87,8 @@ def declaration(symbol: Symbol, values: Values, where: Span) -> YamlNode:
     choices = None
     if is_known and _is_pinned(symbol) and isinstance(default, YamlScalar) and kind != "file":
         choices = YamlList((default,), where)
+    elif symbol.is_closed and kind == "string":
+        choices = YamlList(tuple(scalar(one, where) for one in symbol.choices), where)
     if default is not None and is_known and choices is None and kind in _TYPES_OF_DEFAULTS:
         return default
     return map_of({"type": scalar(kind, where), "default": default, "enum": choices}, where)
@@ -122,6 +124,6 @@ def comment_of(symbol: Symbol, name: str) -> str:
     lines = [symbol.comment] if symbol.comment else []
     if symbol.role == "parameter" and symbol.wish != name:
         lines.append(f"in the xacro: {symbol.wish}")
-    if symbol.role == "parameter" and symbol.choices and not _is_pinned(symbol):
+    if symbol.role == "parameter" and symbol.choices and not (_is_pinned(symbol) or symbol.is_closed):
         lines.append(f"compared with: {', '.join(repr(one) for one in symbol.choices)}")
     return "\n".join(lines)

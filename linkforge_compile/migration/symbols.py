@@ -47,8 +47,8 @@ class MissingFileError(UndefinedError):
 class NoModuleError(Exception):
     """A macro cannot be a module; `body` is its element.
 
-    It can be one if the parameters `fixed` are none, because they have the same value in all calls, or if the file that
-    uses it has the elements `outer`. Else it may help if those are none that are `named`, in the names of its parts.
+    It can be one without the parameters `fixed`, if their values never differ, or if the file that uses it has the
+    elements `outer`. Else it may help to leave out the parameters `named`, which are in the names of its parts.
     """
 
     def __init__(
@@ -105,6 +105,8 @@ class Symbol:
     """Whether it is a piece of a text, as it was given."""
     is_argument: bool = False
     """Whether it is an argument of the whole robot."""
+    is_closed: bool = False
+    """Whether `choices` are all its values: for others the xacro makes no valid robot."""
     is_block: bool = False
     """Whether it is a parameter for a block of elements."""
 

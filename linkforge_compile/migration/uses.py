@@ -19,6 +19,7 @@ from linkforge_compile.migration.symbols import (
     UNSET,
     VECTOR,
     Parts,
+    Reference,
     Symbol,
     as_parts,
     is_literal,
@@ -167,6 +168,8 @@ class Uses:
             symbol = by_wish.get(wish)
             if symbol is None or symbol not in spec.used or _same_value(parts, symbol):
                 continue
+            if symbol.is_closed and len(parts) == 1 and isinstance(parts[0], Reference):
+                _close(parts[0].symbol, symbol)
             given[spec.names[symbol]] = self._placed(parts, symbol, values, where)
         for symbol, form, _ in self._blocks(use):
             given[spec.names[symbol]] = given_block(form, self._carried[f"{_BLOCK}{number}_{symbol.wish}"], where)
@@ -199,6 +202,13 @@ class Uses:
         if symbol.kind in (BOOLEAN, NUMBER) and is_literal(parts):
             parts = as_parts(value_of(parts)) or ("",)
         return values.value(parts, where, symbol.kind)
+
+
+def _close(outer: Symbol, symbol: Symbol) -> None:
+    """Give a parameter that is handed on to another one the words of that one."""
+    words = dict.fromkeys([*outer.choices, *symbol.choices])
+    if outer.role == "parameter" and (outer.value is None or "".join(map(str, outer.value)) in words):
+        outer.choices, outer.is_closed = words, True
 
 
 def _same_value(parts: Parts, symbol: Symbol) -> bool:

@@ -245,3 +245,28 @@ def test_a_tag_of_gazebo_that_is_twice_on_a_condition_only_is_translated(tmp_pat
 """
     migrated(tmp_path, text, {"gripper": "base"})
     migrated(tmp_path, text, {"gripper": "tool"})
+
+
+def test_a_word_that_chooses_the_hardware_has_only_the_values_that_do(tmp_path: Path):
+    text = """
+<xacro:arg name="mode" default="mock"/>
+<xacro:macro name="arm" params="mode:=mock">
+  <link name="base"/>
+  <link name="tip"/>
+  <joint name="elbow" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+  <ros2_control name="arm" type="system">
+    <xacro:if value="${mode == 'mock'}"><hardware><plugin>m/Mock</plugin></hardware></xacro:if>
+    <xacro:if value="${mode == 'real'}">
+      <hardware><plugin>r/Real</plugin><param name="port">3</param></hardware>
+    </xacro:if>
+    <joint name="elbow"><command_interface name="position"/></joint>
+  </ros2_control>
+</xacro:macro>
+<xacro:arm mode="$(arg mode)"/>
+"""
+    made = migrated(tmp_path, text)
+    declared = "mode: {type: string, default: mock, enum: [mock, real]}"
+    assert declared in made.robot
+    assert declared in made.files["arm.robot.yaml"]
+    assert "extra" not in made.files["arm.robot.yaml"]
+    assert len(made.proved.comparisons) == 2
