@@ -45,16 +45,27 @@ def without_marks(extra: YamlNode) -> YamlNode:
 
 
 def raw_in(node: YamlNode) -> Iterator[str]:
-    """Yield the raw XML in a tree."""
+    """Yield the tags of the raw XML in a tree; attributes that the language has no key for are none."""
     if isinstance(node, YamlMap):
         for entry in node:
-            if entry.name in ("extra", "extra_attributes", "extra_inside"):
-                yield entry.name
+            if entry.name == "extra":
+                yield from _tags_in(entry.value)
             else:
                 yield from raw_in(entry.value)
     elif isinstance(node, YamlList):
         for item in node:
             yield from raw_in(item)
+
+
+def _tags_in(extra: YamlNode) -> Iterator[str]:
+    if isinstance(extra, YamlScalar):
+        found = re.search(r"<([\w:.-]+)", extra.text)
+        yield found[1] if found else ""
+    elif isinstance(extra, YamlList):
+        for item in extra:
+            yield from _tags_in(item)
+    elif isinstance(extra, YamlMap):
+        yield from _tags_in(extra.entries["value"].value if "value" in extra.entries else next(iter(extra)).value)
 
 
 def valid_variants(found: Sequence[YamlNode | None], raw: Sequence[YamlNode | None]) -> list[int]:

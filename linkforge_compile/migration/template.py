@@ -154,7 +154,7 @@ def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list
 
 @dataclass
 class Spec:
-    """The comment that begins a spec, its tree, the symbols that it declares by their names, and the keys of raw XML.
+    """The comment that begins a spec, its tree, the symbols that it declares by their names, and the tags of raw XML.
 
     `left_out` are elements of the xacro that have no effect.
     """
