@@ -10,6 +10,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.importers.link import are_shapes_of
 from linkforge_compile.importers.urdf import read_urdf
+from linkforge_compile.migration.alike import with_loops
 from linkforge_compile.migration.conditions import close
 from linkforge_compile.migration.dimensions import settle_dimensions
 from linkforge_compile.migration.groups import MARK, NAMED, REST, Group, Groups
@@ -201,6 +202,9 @@ class FileMaker:
         if isinstance(modules := filled.get("modules"), YamlMap):
             filled["modules"], variables, moved = repeated(modules, [*self._names.values()], where)
             self._comments, _ = _moved((self._comments, {}), moved)
+        for section in ("ros2_control", "transmissions"):
+            if isinstance(parts := filled.get(section), YamlMap):
+                filled[section] = self._with_loops(parts, section)
         declared = self._declared(where)
         if variables:
             known = declared.get("variables")
@@ -215,6 +219,23 @@ class FileMaker:
         }
         body = {key: filled.get(key) for key in _ORDER}
         return map_of({**head, **declared, **body}, where)
+
+    def _with_loops(self, parts: YamlMap, section: str) -> YamlMap:
+        """Return a section in which joints or transmissions that are alike are one entry."""
+        if section == "transmissions":
+            made, moved = with_loops(parts, "each", self._names.values())
+            self._comments, self._endings = _moved((self._comments, self._endings), moved)
+            return made
+        blocks: dict[str, YamlEntry] = {}
+        for block in parts:
+            body = block.value
+            joints = body.get("joints") if isinstance(body, YamlMap) else None
+            if isinstance(body, YamlMap) and isinstance(joints, YamlMap):
+                made, moved = with_loops(joints, "each", self._names.values())
+                self._comments, self._endings = _moved((self._comments, self._endings), {**moved, joints: made})
+                body = YamlMap({**body.entries, "joints": YamlEntry(body.entries["joints"].key, made)}, body.span)
+            blocks[block.name] = YamlEntry(block.key, body)
+        return YamlMap(blocks, parts.span)
 
     def _without_inertia(self, link: YamlEntry) -> YamlNode:
         """Return a link without its inertia if that is computed of its shapes."""
