@@ -34,7 +34,7 @@ MAY_IMPORT = {
     "core": "source units roots",
     "compilation": "diagnostics core",
     "importers": "banner source diagnostics limits units syntax core compilation roots paths",
-    "load": "source diagnostics limits syntax schema importers roots paths compilation",
+    "load": "source diagnostics limits units syntax schema importers roots paths compilation",
     "expand": "source diagnostics limits units syntax schema expressions importers load paths",
     "listing": "source diagnostics units syntax expressions importers load expand roots paths",
     "lower": "source diagnostics limits units syntax load expand core roots paths",

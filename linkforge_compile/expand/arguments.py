@@ -180,7 +180,7 @@ def xacro_arguments(
         text = _xacro_text(entry.value, arguments)
         expression = _xacro_expression(entry.value, arguments) if text is None and takes_maps else None
         if isinstance(text, str):
-            texts[name] = XacroArgument(text, entry.key.span)
+            texts[name] = XacroArgument(text, entry.key.span, quantity=_quantity(entry.value, arguments))
         elif expression:
             origin = _origin_element(entry.value, arguments)
             texts[name] = XacroArgument(expression, entry.key.span, is_expression=True, origin=origin)
@@ -202,6 +202,14 @@ def _xacro_text(node: YamlNode, arguments: Arguments) -> str | Fault | None:
         texts = [_text_of(item) for item in value]
         return " ".join(text for text in texts if text) if None not in texts else None
     return value if isinstance(value, Fault) else _text_of(value)
+
+
+def _quantity(node: YamlNode, arguments: Arguments) -> Quantity | None:
+    """Return an argument that has a unit; None for any other one."""
+    from linkforge_compile.expand.values import plain_value  # with the expressions
+
+    value = arguments.evaluator.value(node) if arguments.evaluator else plain_value(node)
+    return value if isinstance(value, Quantity) else None
 
 
 def _xacro_expression(node: YamlNode, arguments: Arguments) -> str | None:

@@ -76,10 +76,7 @@ class RefusedError(Exception):
 
 def dimension_name(dimension: Dimension | None) -> str:
     """Return "a length", or "a bare number" for None."""
-    if dimension is None:
-        return "a bare number"
-    name = dimension.replace("_", " ")
-    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+    return dimension.words if dimension else "a bare number"
 
 
 def kind_name(value: Value) -> str:

@@ -6,8 +6,9 @@ What each module knows; it imports only those above it:
     loader            the files of one compile, each read once -> SpecFile
     locations         what a path in a spec names -> a file; a path relative to one file -> relative to another
     xacro_library     a xacro file and what it includes -> the arguments and macros that they declare, by reading alone
+    xacro_written     the elements of xacro files as they are written, by the places that xacro's elements have
     xacro             a xacro file -> SpecFile; what xacro reports -> diagnostics where it is written
-    macro_roles       a macro -> which of its parameters are the link above it, its place there, and its prefix
+    macro_roles       a macro -> which of its parameters are the link above it, its place there, its prefix, or a length
     xacro_macro       an entry of `modules` with `macro` -> the call of the macro, and the SpecFile that it makes
 """
 

@@ -3,17 +3,31 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from linkforge_compile.units import Dimension
+
 if TYPE_CHECKING:
     from linkforge_compile.load.xacro_library import Macro, XacroLibrary
+    from linkforge_compile.source import Span
     from linkforge_compile.source.xml_tree import XmlElement
 
 
 ORIGIN = "origin"
 """The block that an entry of `modules` gives as its `origin`."""
+
+
+DIMENSIONS: Mapping[tuple[str, str], Dimension] = {
+    ("origin", "xyz"): Dimension.LENGTH,
+    ("origin", "rpy"): Dimension.ANGLE,
+    ("box", "size"): Dimension.LENGTH,
+    ("mass", "value"): Dimension.MASS,
+    **{(shape, size): Dimension.LENGTH for shape in ("cylinder", "capsule") for size in ("radius", "length")},
+    ("sphere", "radius"): Dimension.LENGTH,
+}
+"""Attributes whose numbers always have the same dimension."""
 
 
 class OwnPrefix(NamedTuple):
@@ -176,4 +190,18 @@ def _role_outside(role: Role, called: Macro, call: XmlElement) -> Role | None:
         return Role(found[1], role.kind)
     if "prefix" in role.kind and (found := _FIRST.match(given)):
         return Role(found[1], "prefix_" if found[2] else "prefix")
+    return None
+
+
+_EXPRESSION = re.compile(r"\$\{([^}]*)\}")
+
+
+def dimension_of(parameter: str, macro: Macro) -> tuple[Dimension, Span] | None:
+    """Return the dimension of the first attribute that is a multiple of a parameter or a sum with it, and its place."""
+    multiple = re.compile(rf"[-+*\d.\s(]*\b{re.escape(parameter)}\b[-+*/\d.\s)]*")
+    for element in macro.element.walk():
+        for name, attribute in element.attributes.items():
+            dimension = DIMENSIONS.get((element.tag, name))
+            if dimension and any(map(multiple.fullmatch, _EXPRESSION.findall(element.values[name]))):
+                return dimension, attribute.span
     return None

@@ -28,6 +28,7 @@ from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNO
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile, with_use_trace
 from linkforge_compile.load.xacro_library import XacroLibrary, read_library
+from linkforge_compile.load.xacro_written import WrittenElements
 from linkforge_compile.paths import Package, as_typed, find_package, names_in, unknown_package
 from linkforge_compile.roots import exists
 from linkforge_compile.source import SourceFile, Span
@@ -35,8 +36,9 @@ from linkforge_compile.source import SourceFile, Span
 if TYPE_CHECKING:
     from linkforge_compile.importers.document import Imported, Move
     from linkforge_compile.importers.package_paths import PackagePaths
-    from linkforge_compile.importers.xacro import Expanded, Failed, MacroCall, Place, XacroAnswers
+    from linkforge_compile.importers.xacro import Failed, MacroCall, Place, XacroAnswers
     from linkforge_compile.source.xml_tree import XmlDocument, XmlElement
+    from linkforge_compile.units import Quantity
 
 Look: TypeAlias = "Callable[[XmlDocument], None]"
 """Sees an expanded document."""
@@ -176,12 +178,16 @@ def expand_xacro(use: XacroUse, loader: Loader, sink: Diagnostics) -> Expansion 
 
 
 class XacroArgument(NamedTuple):
-    """An argument and the place of its name; for a macro it may be the expression of a map, also as an `<origin>`."""
+    """An argument and the place of its name; for a macro it may be the expression of a map, also as an `<origin>`.
+
+    `quantity` is what was written with a unit.
+    """
 
     text: str
     where: Span
     is_expression: bool = False
     origin: str | None = None
+    quantity: Quantity | None = None
 
 
 @dataclass(frozen=True)
@@ -200,46 +206,6 @@ class XacroUse:
     package: Package | None = None
     used_elsewhere: Collection[str] | None = ()
     call: MacroCall | None = None
-
-
-class WrittenElements:
-    """The elements of xacro files as written; each file is parsed when first needed."""
-
-    def __init__(self, result: Expanded | Failed, main: SourceFile, loader: Loader) -> None:
-        self.main, self._loader = main, loader
-        self._paths = result.files
-        self._elements: dict[int, tuple[XmlElement, ...]] = {}
-        self.files = tuple(filter(None, map(self.open, result.files[1:])))
-        for path in result.read:
-            loader.add_read_by_xacro(path)
-
-    def element(self, place: Place) -> XmlElement | None:
-        elements = self._elements_of(place.file)
-        return elements[place.element] if place.element < len(elements) else None
-
-    def span(self, place: Place | None) -> Span | None:
-        element = self.element(place) if place else None
-        return element.span if element else None
-
-    @property
-    def all_elements(self) -> Iterator[XmlElement]:
-        return (element for number in range(len(self._paths)) for element in self._elements_of(number))
-
-    def named(self, tag: str) -> Iterator[str]:
-        return (name for one in self.all_elements if one.tag == tag and (name := one.get("name")))
-
-    def open(self, path: Path) -> SourceFile | None:
-        """Read another file than the first; a file names it, not the user, so it must lie within the roots."""
-        return self._loader.open_xml(path, Diagnostics(), ImportSite(str(path), self.main.whole))
-
-    def _elements_of(self, number: int) -> tuple[XmlElement, ...]:
-        if number not in self._elements:
-            from linkforge_compile.importers.xml import read_xml
-
-            file = self.main if number == 0 else self.open(self._paths[number])
-            document = read_xml(file, Diagnostics()) if file else None
-            self._elements[number] = tuple(document.root.walk()) if document else ()
-        return self._elements[number]
 
 
 @dataclass(frozen=True)
@@ -266,6 +232,8 @@ class XacroReporter:
             self.sink.report(self._unknown_package(answers.missing_packages[-1], place))
         elif failed.kind == "ArgException":
             self._report_unset(failed.reason, place, failed.arguments or {})
+        elif self.use.call and (unset := re.fullmatch(r"Undefined property to forward: (\w+)", failed.reason)):
+            self.sink.report(self._unset_of_macro(unset[1], self.use.call.macro))
         else:
             self.inside.report(self._fault(failed, failed.reason, place))
 
@@ -314,6 +282,15 @@ class XacroReporter:
 
         within = f", in '${{{failed.expressions[-1]}}}'" if failed.expressions else ""
         return XACRO_FAILED.at(where, problem=plain_message(reason, failed.kind) + within, notes=notes)
+
+    def _unset_of_macro(self, parameter: str, name: str) -> Diagnostic:
+        """Return the report of a parameter of a macro that takes the value around its call, where there is none."""
+        macros = (one for one in self.written.all_elements if one.tag == "xacro:macro" and one.get("name") == name)
+        notes = [
+            Note(f"'{parameter}:=^' takes the value around the call, and there is none", one.span) for one in macros
+        ]
+        what, remedy = f"parameter '{parameter}' of macro '{name}' has", f"'with: {{{parameter}: VALUE}}'"
+        return PARAMETER_NOT_SET.at(self.use.used.where, what=what, remedy=remedy, notes=notes)
 
     def _where(self, failed: Failed, place: Span | None) -> tuple[Span | None, list[Note]]:
         """Return where the failed expression is written, with a note on what needs it if that is elsewhere."""

@@ -28,15 +28,16 @@ from linkforge_compile.diagnostics.codes.importing import (
     XACRO_ARGUMENT,
     XACRO_UNKNOWN_NAME,
 )
+from linkforge_compile.diagnostics.codes.model import WRONG_DIMENSION
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET, UNKNOWN_PARAMETER
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
-from linkforge_compile.load.macro_roles import ORIGIN, MacroRoles, OwnParent, OwnPrefix
+from linkforge_compile.load.macro_roles import ORIGIN, MacroRoles, OwnParent, OwnPrefix, dimension_of
 from linkforge_compile.load.xacro import XacroArgument, XacroUse, open_xacro
 from linkforge_compile.load.xacro_library import Macro, MacroParameter, XacroLibrary, read_library
 from linkforge_compile.source import SourceFile
-from linkforge_compile.source.malformed_xml import MalformedXmlError
+from linkforge_compile.source.malformed_xml import find_xml_error
 from linkforge_compile.source.xml_tree import parse_xml
 from linkforge_compile.syntax import YamlNode, YamlScalar
 
@@ -97,6 +98,7 @@ def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnosti
     arguments = _Arguments(use.arguments or {}, entry, macro, library, sink)
     blocks = tuple(filter(None, map(arguments.block, macro.blocks)))
     arguments.require_all()
+    arguments.require_dimensions()
     if arguments.is_faulty:
         return None
     values, maps = (
@@ -224,14 +226,26 @@ class _Arguments:
             return None
         if given.origin and parameter.block == "*":
             return given.origin
-        elements = _elements_in(given.text)
+        elements, problem = _elements_in(given.text)
         if elements is None or (parameter.block == "*" and elements != 1):
             what = "one element" if parameter.block == "*" else "elements"
             found = "a map" if given.is_expression else given.text
             notes = [Note(_POSE)] if given.is_expression and parameter.block == "*" else []
+            notes += [Note(f"it is not XML: {problem}")] if problem and "<" in given.text else []
             self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=found, notes=notes))
             return None
         return given.text if parameter.block == "*" else f"<block>{given.text}</block>"
+
+    def require_dimensions(self) -> None:
+        """Report the quantities that are not what the macro takes: to xacro, `3 kg` is 3, and so 3 metres of height."""
+        for name, argument in self.values.items():
+            found = dimension_of(name, self.macro) if argument.quantity else None
+            if found and argument.quantity and argument.quantity.dimension is not found[0]:
+                dimension, where = found
+                notes = [Note("the macro writes it here", where)]
+                facts = {"expected": dimension.words, "found": f"'{argument.quantity}'"}
+                other = argument.quantity.dimension.words
+                self._report(WRONG_DIMENSION.at(argument.where, field=f"'{name}'", other=other, notes=notes, **facts))
 
     def require_all(self) -> None:
         """Report the parameters without a value."""
@@ -255,13 +269,12 @@ def _scalar(text: str, span: Span) -> YamlScalar:
     return YamlScalar(text, text, span)
 
 
-def _elements_in(text: str) -> int | None:
-    """Return how many elements a text has side by side, and nothing else; None if it is no such XML."""
-    try:
-        root = parse_xml(SourceFile("<block>", f"<block>{text}</block>")).root
-    except MalformedXmlError:
-        return None
-    return None if root.text.strip() else len(root.children)
+def _elements_in(text: str) -> tuple[int | None, str]:
+    """Return how many elements a text has, None if it has anything else, and what is wrong with its XML."""
+    if fault := find_xml_error(f"{text}</block>", "<block>"):
+        return None, (find_xml_error(text, "<block>") or fault).problem
+    root = parse_xml(SourceFile("<block>", f"<block>{text}</block>")).root
+    return None if root.text.strip() else len(root.children), ""
 
 
 # What the call made

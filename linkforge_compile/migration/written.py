@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Mapping
 from xml.sax.saxutils import escape, quoteattr
 
+from linkforge_compile.load.macro_roles import DIMENSIONS
 from linkforge_compile.migration.conditions import WORDS, Outcomes, decided, holds
 from linkforge_compile.migration.constants import constant_of, example_of
 from linkforge_compile.migration.dimensions import Placement, without_angles
@@ -36,20 +37,12 @@ from linkforge_compile.migration.vectors import as_vector, is_data, tokens_of
 from linkforge_compile.migration.without_effect import WITHOUT_EFFECT
 from linkforge_compile.units import number_text
 
-_LENGTH, _ANGLE = "length", "angle"
+_COUNTS = {"xyz": 3, "rpy": 3, "size": 3}
 NUMBERS: Mapping[tuple[str, str], tuple[int, str]] = {
-    ("origin", "xyz"): (3, _LENGTH),
-    ("origin", "rpy"): (3, _ANGLE),
+    **{key: (_COUNTS.get(key[1], 1), dimension.value) for key, dimension in DIMENSIONS.items()},
     ("axis", "xyz"): (3, ""),
-    ("box", "size"): (3, _LENGTH),
     ("mesh", "scale"): (3, ""),
     ("color", "rgba"): (4, ""),
-    ("mass", "value"): (1, "mass"),
-    ("cylinder", "radius"): (1, _LENGTH),
-    ("cylinder", "length"): (1, _LENGTH),
-    ("capsule", "radius"): (1, _LENGTH),
-    ("capsule", "length"): (1, _LENGTH),
-    ("sphere", "radius"): (1, _LENGTH),
     **{("inertia", f"i{axes}"): (1, "") for axes in ("xx", "yy", "zz", "xy", "xz", "yz")},
     **{("limit", name): (1, "") for name in ("lower", "upper", "effort", "velocity", "acceleration", "jerk")},
     **{("dynamics", name): (1, "") for name in ("damping", "friction")},

@@ -70,6 +70,12 @@ class Dimension(StrEnum):
         """The unit of a bare number."""
         return _SI_UNITS[self]
 
+    @property
+    def words(self) -> str:
+        """What messages call it: "a length", "an angular velocity"."""
+        name = self.replace("_", " ")
+        return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
 
 _SI_UNITS = {
     Dimension.LENGTH: "m",
