@@ -42,6 +42,7 @@ What each module knows; it imports only those above it:
     bundle       paths -> files by digest -> a tree of them on another machine
     work         a Request and points -> robots and rows
     store        chunks -> folders or archives, the table, the manifest
+    connection   a place -> a client of Dask, with workers of the same versions
     scheduler    chunks -> Dask's workers, or this process -> what they made
     plan         the options -> all of the above decided
     session      a plan -> a finished sweep, and what went wrong in it

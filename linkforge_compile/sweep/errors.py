@@ -12,8 +12,11 @@ MAX_POINTS = 1_000_000
 
 
 class SweepError(ValueError):
-    """What was requested is wrong; `diagnostics` has the faults that have a place in an option or a file."""
+    """What was requested is wrong.
+
+    `message` has one or more lines, and `diagnostics` the faults that have a place in an option or a file.
+    """
 
     def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()) -> None:
-        self.diagnostics = diagnostics
+        self.message, self.diagnostics = message, diagnostics
         super().__init__("\n".join((message, *map(str, diagnostics))) if diagnostics else message)

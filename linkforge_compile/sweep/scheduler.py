@@ -1,35 +1,28 @@
-"""Run chunks in this process, or on a cluster of Dask."""
+"""Run chunks in this process, or on the workers of a cluster."""
 
 from __future__ import annotations
 
 import gc
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from concurrent.futures import CancelledError
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from linkforge_compile._version import __version__
 from linkforge_compile.roots import exists
 from linkforge_compile.sweep.arrow import distributed
 from linkforge_compile.sweep.bundle import Bundle, Tree
+from linkforge_compile.sweep.connection import RETRIES, require_same_versions
 from linkforge_compile.sweep.errors import SweepError
-from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.points import Point
 from linkforge_compile.sweep.store import Chunk
 from linkforge_compile.sweep.work import Made, Request, make_all
 
 _IN_FLIGHT = 3
 """Chunks that are sent for each process: one is computed, one waits, and one is on its way back."""
-
-_RETRIES = 10
-"""How many workers may be lost with one chunk before it is given up."""
-
-CONNECTING = 10.0
-"""How long a scheduler may take to answer [s]."""
-
-_WAITING_FOR_WORKERS = 30.0
-"""How long a cluster may have no worker [s]."""
 
 PointsOf = Callable[[Chunk], list[Point]]
 """Returns the points of a chunk that are to be compiled."""
@@ -51,60 +44,6 @@ def run_here(request: Request, chunks: Iterable[Chunk], points_of: PointsOf) -> 
         yield chunk, make_all(request, points_of(chunk))
 
 
-@contextmanager
-def cluster(place: Place) -> Iterator[Any]:
-    """Connect to a scheduler, or start one with processes of one thread each on this machine.
-
-    Raises:
-        SweepError: if there is no scheduler at the address, or it has no workers, or no process can be started.
-
-    """
-    if place.scheduler is not None:
-        with _connected(place.scheduler, place.security) as client:
-            yield client
-        return
-    library = distributed()
-    import logging
-
-    import dask
-
-    with dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES}):
-        try:
-            # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
-            local = library.LocalCluster(
-                n_workers=place.jobs,
-                threads_per_worker=1,
-                host="127.0.0.1",
-                dashboard_address="127.0.0.1:0",
-                scheduler_kwargs={"dashboard": False},
-                security=library.Security.temporary(),
-                silence_logs=logging.CRITICAL,
-            )
-        except RuntimeError as error:
-            raise SweepError(
-                f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
-                "with one job no other process is needed"
-            ) from error
-        with local, library.Client(local, set_as_default=False) as client:
-            yield client
-
-
-def _connected(address: str, security: Mapping[str, str]) -> Any:
-    library = distributed()
-
-    try:
-        tls = library.Security(require_encryption=True, **security) if security else None
-        client = library.Client(address, set_as_default=False, security=tls, timeout=CONNECTING)
-    except (OSError, ValueError, ImportError, TypeError, RuntimeError) as error:
-        raise SweepError(f"there is no scheduler at '{address}': {error}") from error
-    try:
-        client.wait_for_workers(1, timeout=_WAITING_FOR_WORKERS)
-    except TimeoutError as error:
-        client.close()
-        raise SweepError(f"the scheduler at '{address}' has no workers; start some: dask worker {address}") from error
-    return client
-
-
 class Cluster:
     """Sends chunks to the workers of a client, with the files that they need, and collects what they make."""
 
@@ -122,7 +61,7 @@ class Cluster:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Sending large graph")
             self._setups.append(self._client.submit(_as_it_is, new, pure=False))
-            self._job = self._client.submit(_as_it_is, (self._request, self._bundle), pure=False)
+            self._job = self._client.submit(_as_it_is, _pickled((self._request, self._bundle, __version__)), pure=False)
 
     def run(self, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
         """Yield each chunk with what was made of it, in the order in which they are done.
@@ -133,7 +72,7 @@ class Cluster:
         done = distributed().as_completed(loop=self._client.loop)
 
         def send(chunk: Chunk, points: list[Point]) -> None:
-            future = self._client.submit(_work, self._job, self._setups, points, pure=False, retries=_RETRIES)
+            future = self._client.submit(_work, self._job, self._setups, points, pure=False, retries=RETRIES)
             sent[future] = chunk, points, self._bundle
             done.add(future)
 
@@ -159,7 +98,16 @@ class Cluster:
         try:
             result: list[Made] = future.result()
         except KilledWorker as error:
-            raise SweepError(f"{_RETRIES} workers were lost with the same robots; is there enough memory?") from error
+            raise SweepError(f"{RETRIES} workers were lost with the same robots; is there enough memory?") from error
+        except CancelledError as error:
+            raise SweepError("the connection to the scheduler was lost; --resume goes on") from error
+        except SweepError:
+            raise
+        except Exception as error:
+            require_same_versions(self._client)  # of workers that came after the first chunks
+            if isinstance(error, ImportError | AttributeError):
+                raise SweepError(f"a worker lacks what your function needs: {error}") from error
+            raise
         return result
 
     def _lacks_files(self, made: list[Made], bundle: Bundle) -> bool:
@@ -177,16 +125,37 @@ def _as_it_is(value: object) -> object:
     return value
 
 
+def _pickled(job: tuple[Request, Bundle, str]) -> bytes:
+    """Return a job as the scheduler passes it on, unread: it may lack the modules of the function."""
+    import cloudpickle
+
+    try:
+        pickled: bytes = cloudpickle.dumps(job)
+    except Exception as error:  # the objects that the function refers to may raise anything
+        raise SweepError(f"the function cannot be sent to other processes: {error}") from error
+    return pickled
+
+
 # In a worker
 
 _trees: dict[str, Tree] = {}
 """The trees of this process, by the digest of their bundles."""
 
 
-def _work(job: tuple[Request, Bundle], blobs: Sequence[Mapping[str, bytes]], points: list[Point]) -> list[Made]:
+def _work(job: bytes, blobs: Sequence[Mapping[str, bytes]], points: list[Point]) -> list[Made]:
     """Compile points in a tree of the client's files."""
-    request, bundle = job
+    request, bundle, version = _loaded(job)
+    if version != __version__:
+        raise SweepError(f"a worker has linkforge-compile {__version__}, and the sweep was begun with {version}")
     return make_all(request, points, _tree_of(bundle, blobs))
+
+
+@lru_cache(maxsize=2)
+def _loaded(job: bytes) -> tuple[Request, Bundle, str]:
+    import cloudpickle
+
+    loaded: tuple[Request, Bundle, str] = cloudpickle.loads(job)
+    return loaded
 
 
 def _tree_of(bundle: Bundle, blobs: Sequence[Mapping[str, bytes]]) -> Tree:

@@ -11,11 +11,12 @@ from typing import Any, NamedTuple
 
 from linkforge_compile.overview.figures import mesh_files
 from linkforge_compile.sweep.bundle import Bundle, add_files, changed_files
+from linkforge_compile.sweep.connection import cluster
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.points import Point
-from linkforge_compile.sweep.scheduler import Cluster, Files, cluster, run_here
+from linkforge_compile.sweep.scheduler import Cluster, Files, run_here
 from linkforge_compile.sweep.store import Chunk, Store, chunks_of
 from linkforge_compile.sweep.work import ABOUT_FILES, Made, Request, compile_point, make
 

@@ -1,20 +1,25 @@
 """Sweeps on processes of Dask, which see the client's files only as it sends them."""
 
+import importlib
 import os
+import re
 import signal
 from collections.abc import Iterator
 from contextlib import nullcontext
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 import pytest
 
-from linkforge_compile.sweep import SweepError, run, scheduler, session
+from linkforge_compile._version import __version__
+from linkforge_compile.sweep import SweepError, connection, run, session
 from linkforge_compile.sweep.bundle import Bundle, Tree, add_files
+from linkforge_compile.sweep.connection import cluster, require_same_versions
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
 from linkforge_compile.sweep.points import Point
-from linkforge_compile.sweep.scheduler import Files, cluster
+from linkforge_compile.sweep.scheduler import Files
 from linkforge_compile.sweep.session import collect_files, files_of, results_of
 from linkforge_compile.sweep.store import Chunk, chunks_of
 from linkforge_compile.sweep.work import Made, Request, make, make_all
@@ -152,9 +157,65 @@ def test_a_function_runs_on_workers(client: Any, tmp_path: Path, monkeypatch: py
 
 
 def test_a_scheduler_that_is_not_there_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(scheduler, "CONNECTING", 0.5)
-    with pytest.raises(SweepError, match=r"there is no scheduler at 'tcp://127\.0\.0\.1:1'"):
+    monkeypatch.setattr(connection, "CONNECTING", 0.5)
+    with pytest.raises(SweepError, match=r"cannot connect to a scheduler at .*: no program listens there"):
         run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, scheduler="tcp://127.0.0.1:1")
+
+
+def test_a_worker_with_another_version_is_refused(client: Any, monkeypatch: pytest.MonkeyPatch):
+    def get_versions(packages: list[str]) -> dict[str, Any]:
+        found = real(packages=packages)
+        one, other = (about["packages"] for about in found["workers"].values())
+        one["linkforge_compile"], other["python"] = None, "3.9.1.final.0"
+        found["scheduler"]["packages"]["cloudpickle"] = "2.0.0"
+        return found
+
+    real = client.get_versions
+    require_same_versions(client)
+    monkeypatch.setattr(client, "get_versions", get_versions)
+    with pytest.raises(SweepError) as caught:
+        require_same_versions(client)
+    first, *lines = caught.value.message.splitlines()
+    assert first == "the cluster has other versions than this machine; install the same:"
+    expected = [
+        r"  cloudpickle 2\.0\.0, here \S+: scheduler",
+        rf"  linkforge-compile is missing, here {re.escape(__version__)}: worker tls://\S+",
+        r"  Python 3\.9, here 3\.\d+: worker tls://\S+",
+    ]
+    assert all(re.fullmatch(pattern, line) for pattern, line in zip(expected, lines, strict=True)), lines
+
+
+def test_a_function_whose_module_a_worker_lacks_is_an_error(
+    client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """The scheduler does not read it, so it needs none of its modules."""
+    (tmp_path / "legs_of_mine.py").write_text("def score(robot, values):\n    return 1\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    module = importlib.import_module("legs_of_mine")
+    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    with pytest.raises(SweepError, match="a worker lacks what your function needs: No module named 'legs_of_mine'"):
+        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, module.score, jobs=2)
+
+
+def test_a_function_that_cannot_be_sent_is_an_error(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    lock = Lock()
+    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    with pytest.raises(SweepError, match=r"the function cannot be sent to other processes: .*lock"):
+        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, lambda _robot, _values: lock.locked(), jobs=2)
+
+
+@pytest.mark.parametrize(
+    ("address", "files", "message"),
+    [
+        ("tls://127.0.0.1:1", {}, "needs the certificate of your authority, your own, and your key: --tls-ca FILE"),
+        ("tls://127.0.0.1:1", {"tls_ca_file": "none.pem"}, "cannot read 'none.pem': No such file or directory"),
+        ("tcp://127.0.0.1:1", {"tls_ca_file": "none.pem"}, "is an address without TLS; write tls://"),
+        ("127.0.0.1", {}, "cannot connect to a scheduler at '127.0.0.1': missing port number"),
+    ],
+)
+def test_a_scheduler_needs_an_address_and_its_certificates(address: str, files: dict[str, str], message: str):
+    with pytest.raises(SweepError, match=re.escape(message)), cluster(Place(1, address, files)):
+        pass
 
 
 def test_points_travel_as_they_are():

@@ -125,9 +125,8 @@ def run(arguments: argparse.Namespace) -> int:
     except SweepError as error:
         if error.diagnostics:
             report(error.diagnostics, arguments)
-        print_line(
-            f"linkforge sweep: {error.args[0].splitlines()[0]}" if error.diagnostics else f"linkforge sweep: {error}"
-        )
+        for line in f"linkforge sweep: {error.message}".splitlines():
+            print_line(line)
         return WRONG_USAGE
 
 

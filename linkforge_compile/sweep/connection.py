@@ -1,0 +1,158 @@
+"""Connect to a scheduler of Dask, or start one with processes on this machine."""
+
+from __future__ import annotations
+
+import logging
+import ssl
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from linkforge_compile.sweep.arrow import distributed
+from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.place import Place
+
+RETRIES = 10
+"""How many workers may be lost with one chunk before it is given up."""
+
+CONNECTING = 10.0
+"""How long a scheduler may take to answer [s]."""
+
+_WAITING_FOR_WORKERS = 30.0
+"""How long a cluster may have no worker [s]."""
+
+_CONFIGURATION = {
+    "distributed.scheduler.allowed-failures": RETRIES,
+    # Dask watches its processes for its dashboard, which takes a tenth of a core with two workers.
+    "distributed.worker.profile.enabled": False,
+    "distributed.worker.memory.monitor-interval": "1s",
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "10s",
+}
+"""The settings of Dask for processes of this machine."""
+
+_PACKAGES = ("linkforge_compile", "cloudpickle", "distributed")
+"""What must have the same version in all processes: robots depend on the first, messages on the others."""
+
+
+@contextmanager
+def cluster(place: Place) -> Iterator[Any]:
+    """Connect to a scheduler, or start one with processes of one thread each on this machine.
+
+    Raises:
+        SweepError: if there is no scheduler at the address, or it has no workers, or other versions, or no process can
+            be started.
+
+    """
+    library = distributed()
+    from distributed.utils import silence_logging_cmgr as silent
+
+    if place.scheduler is not None:
+        with silent(logging.CRITICAL), _connected(place.scheduler, place.security) as client:
+            require_same_versions(client)
+            yield client
+        return
+    import dask
+
+    with dask.config.set(_CONFIGURATION):
+        try:
+            # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
+            local = library.LocalCluster(
+                n_workers=place.jobs,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
+                security=library.Security.temporary(),
+                silence_logs=logging.CRITICAL,
+            )
+        except RuntimeError as error:
+            raise SweepError(
+                f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
+                "with one job no other process is needed"
+            ) from error
+        with local, library.Client(local, set_as_default=False) as client:
+            yield client
+
+
+def _connected(address: str, security: Mapping[str, str]) -> Any:
+    library, tls = distributed(), _security(address, security)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", library.versions.VersionMismatchWarning)  # require_same_versions checks
+            client = library.Client(address, set_as_default=False, security=tls, timeout=CONNECTING)
+    except (OSError, ValueError, ImportError, TypeError, RuntimeError) as error:
+        raise SweepError(f"cannot connect to a scheduler at '{address}': {_reason(error, address)}") from error
+    try:
+        client.wait_for_workers(1, timeout=_WAITING_FOR_WORKERS)
+    except TimeoutError as error:
+        client.close()
+        raise SweepError(f"the scheduler at '{address}' has no workers; start some: dask worker {address}") from error
+    return client
+
+
+def _security(address: str, files: Mapping[str, str]) -> Any:
+    """Return the settings of TLS: the files, or else those of Dask's own configuration."""
+    is_encrypted = address.startswith("tls://")
+    if files and not is_encrypted:
+        raise SweepError(f"'{address}' is an address without TLS; write tls://…, or leave out the certificates and key")
+    for file in files.values():
+        try:
+            Path(file).read_bytes()
+        except OSError as error:
+            raise SweepError(f"cannot read '{file}': {error.strerror}") from error
+    security = distributed().Security(require_encryption=is_encrypted or None, **files)
+    if is_encrypted and not (security.tls_ca_file and security.tls_client_cert and security.tls_client_key):
+        raise SweepError(
+            f"'{address}' needs the certificate of your authority, your own, and your key: "
+            "--tls-ca FILE --tls-cert FILE --tls-key FILE"
+        )
+    return security
+
+
+def _reason(error: BaseException, address: str) -> str:
+    """Return why there is no connection; Dask's own words name sockets and its documentation."""
+    while error.__cause__ is not None and not isinstance(error, TimeoutError):
+        inner = error.__cause__
+        if isinstance(inner, ConnectionRefusedError):
+            return "no program listens there"
+        if isinstance(inner, ssl.SSLCertVerificationError):
+            return f"its certificate is not valid for your authority ({inner.verify_message})"
+        error = inner
+    if isinstance(error, ssl.SSLError) and error.reason and error.reason.startswith(("KEY", "NO_")):
+        return f"the certificates and the key cannot be used ({error.reason.replace('_', ' ').lower()})"
+    if isinstance(error, ssl.SSLError) or "SSL" in str(error):
+        return "it has no TLS (tcp://…), or does not accept your certificate"
+    if isinstance(error, ConnectionResetError) and not address.startswith("tls://"):
+        return "it closed the connection; with TLS, its address begins with tls://"
+    return error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+
+
+def require_same_versions(client: Any) -> None:
+    """Refuse a cluster whose scheduler or workers have other versions than this process; SweepError says who."""
+    found = client.get_versions(packages=["linkforge_compile"])
+    ours = _versions(found["client"])
+    theirs = {"scheduler": found["scheduler"]} | {f"worker {name}": one for name, one in found["workers"].items()}
+    processes: dict[str, list[str]] = {}
+    for process, about in theirs.items():
+        versions = _versions(about)
+        for name, version in versions.items():
+            if version != ours[name]:
+                processes.setdefault(
+                    f"{name.replace('_', '-')} {version or 'is missing'}, here {ours[name]}", []
+                ).append(process)
+    if processes:
+        lines = [f"  {text}: {_some(names)}" for text, names in processes.items()]
+        raise SweepError("\n".join(("the cluster has other versions than this machine; install the same:", *lines)))
+
+
+def _versions(about: Mapping[str, Any]) -> dict[str, str | None]:
+    """Return the versions that must agree, of what `Client.get_versions` has of a process."""
+    packages = about["packages"]
+    return {"Python": ".".join(packages["python"].split(".")[:2])} | {name: packages.get(name) for name in _PACKAGES}
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(names if len(names) <= 3 else (*names[:3], f"{len(names) - 3} more"))
