@@ -35,15 +35,27 @@ def show(stream: io.StringIO, clock: list[float], monkeypatch: pytest.MonkeyPatc
 
 def test_a_terminal_has_a_bar_that_disappears(clock: list[float], monkeypatch: pytest.MonkeyPatch):
     frames = show(Terminal(), clock, monkeypatch).split("\r")
-    assert frames[1] == "[###                           ] 100 of 1,000 samples, 9 s left\033[K"
+    assert frames[1] == "[###                           ] 100 of 1,000 samples\033[K"
     assert frames[5] == "[###############               ] 500 of 1,000 samples, 5 s left\033[K"
     assert frames[6:] == ["\033[K"]
 
 
 def test_a_log_has_a_line_every_two_seconds(clock: list[float], monkeypatch: pytest.MonkeyPatch):
     assert show(io.StringIO(), clock, monkeypatch) == (
-        "200 of 1,000 samples, 8 s left\n400 of 1,000 samples, 6 s left\n"
+        "200 of 1,000 samples\n400 of 1,000 samples, 6 s left\n"
     )
+
+
+def test_the_start_of_processes_does_not_count(clock: list[float], monkeypatch: pytest.MonkeyPatch):
+    """They take 10 s, then 10 units take a second; 40 are of an earlier run."""
+    stream = io.StringIO()
+    monkeypatch.setattr("sys.stderr", stream)
+    bar = ProgressBar(240, "robots", argparse.Namespace(quiet=False, diagnostics="text"))
+    for time, done in ((0.1, 40), (10, 40), (11, 50), (12, 60), (13, 70), (14, 80)):
+        clock[0] = time
+        bar.show(done)
+    lines = ["40 of 240 robots", "60 of 240 robots", "80 of 240 robots, 16 s left"]
+    assert stream.getvalue().splitlines() == lines
 
 
 @pytest.mark.parametrize("stream", [io.StringIO, Terminal])

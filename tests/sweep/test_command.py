@@ -277,8 +277,10 @@ def test_a_folder_that_cannot_be_written_is_an_error(folder: Path):
 
 def test_a_long_sweep_shows_its_progress(folder: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("linkforge_compile.cli.progress_bar.PROGRESS_INTERVAL", 0.0)
+    monkeypatch.setattr("linkforge_compile.cli.progress_bar.STEADY", 0.0)
     (folder / "arm.robot.yaml").write_text(BROKEN)
     _, text = sweep(folder, "--set", "reach=1m:2m:6", "--where", "$(reach > 1.1)")
     assert "\n6 of 6 points, 0 s left\n" in text
+    assert "\n0 of 5 robots\n" in text
     assert re.search(r"^3 of 5 robots, \d+ s left, 1 with errors$", text, re.MULTILINE)
     assert text.splitlines()[-1] == "5 robots in out (1 of 6 points left out by --where), 3 with errors"

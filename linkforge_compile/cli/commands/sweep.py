@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import itertools
 import os
 import sys
 from collections.abc import Callable, Iterator
@@ -141,10 +140,9 @@ def _run(arguments: argparse.Namespace) -> int:
     packing = "none" if arguments.table_only else arguments.pack or "folders"
     folder = Path(arguments.output)
     store = Store(folder, packing, plan.request.columns, has_variants=plan.has_variants)
-    bar, begin, calls = ProgressBar(plan.size, "robots", arguments), monotonic(), itertools.count()
+    bar, begin = ProgressBar(plan.size, "robots", arguments), monotonic()
 
     def progress(done: int, failed: int) -> None:
-        bar.before = done if next(calls) == 0 else bar.before
         bar.show(done, f"{failed:,} with errors" if failed else "")
 
     try:
@@ -169,6 +167,7 @@ def _points_bar(arguments: argparse.Namespace) -> Iterator[Callable[[int, int], 
     def checked(done: int, of: int) -> None:
         if not bars:
             bars.append(ProgressBar(of, "points", arguments))
+            bars[0].show(0)
         bars[0].show(done)
 
     try:
