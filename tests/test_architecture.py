@@ -23,6 +23,7 @@ MAY_IMPORT = {
     "_version": "",
     "installation": "",
     "file_names": "",
+    "atomic_file": "",
     "diagnostics": "source",
     "fixing": "source diagnostics roots",
     "limits": "source diagnostics",
@@ -70,12 +71,12 @@ MAY_IMPORT = {
     ),
     "sweep": (
         "source diagnostics units limits syntax expressions core listing load expand formats overview banner roots "
-        "paths analysis compilation file_names _version"
+        "paths analysis compilation file_names atomic_file _version"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "
         "pipeline importing migration formats formatter overview export_spec compare collisions view editor lsp "
-        "sweep resources units file_watcher installation file_names _version"
+        "sweep resources units file_watcher installation file_names atomic_file _version"
     ),
 }
 

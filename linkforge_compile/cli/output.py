@@ -15,6 +15,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from linkforge_compile.atomic_file import new_file
 from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.targets import file_to_write
@@ -100,7 +101,7 @@ def write_changed(contents: Mapping[Path, Content], stdout: Content | None = Non
                 if target.is_dir():
                     raise IsADirectoryError(EISDIR, os.strerror(EISDIR))
                 if target.is_file() or not target.exists():
-                    temporary[path] = _write_temporary(target, content, cleanup)
+                    temporary[path] = cleanup.enter_context(new_file(target, content))
                 else:  # such as /dev/stderr, or a pipe that a shell makes for >(…)
                     devices.append(path)
         for path, new in temporary.items():
@@ -187,36 +188,6 @@ def _reason(error: OSError, target: Path) -> str:
 def _encode(content: Content) -> bytes:
     """Return text in UTF-8; bytes of file names that are not UTF-8 become escape sequences, as in JSON."""
     return content if isinstance(content, bytes) else content.encode("utf-8", "backslashreplace")
-
-
-def _write_temporary(target: Path, content: bytes, cleanup: ExitStack) -> Path:
-    """Write a new file beside the target, with its permissions, and flush it to disk; `cleanup` removes it."""
-    import tempfile
-
-    target.parent.mkdir(parents=True, exist_ok=True)
-    # The target's name may have the maximal length already.
-    descriptor, name = tempfile.mkstemp(prefix=f".{target.name[:40]}.", dir=target.parent)
-    cleanup.callback(_remove, Path(name))
-    with os.fdopen(descriptor, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    Path(name).chmod(_mode_of(target))
-    return Path(name)
-
-
-def _remove(path: Path) -> None:
-    with suppress(OSError):
-        path.unlink()
-
-
-def _mode_of(target: Path) -> int:
-    """Return the file's permissions, or those of a new file; mkstemp's own are for the owner only."""
-    if target.exists():
-        return target.stat().st_mode & 0o7777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
 
 
 # Make needs a backslash before a blank, and doubled backslashes before that one.

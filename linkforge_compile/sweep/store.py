@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from linkforge_compile.atomic_file import write_atomically
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.sweep.arrow import arrow, parquet
 from linkforge_compile.sweep.errors import SweepError
@@ -67,7 +67,7 @@ class Store:
             raise SweepError(f"'{self.folder}' has files that no sweep wrote; choose an empty or a new folder")
         self.folder.mkdir(parents=True, exist_ok=True)
         if not file.exists():
-            _write(file, text.encode())
+            write_atomically(file, text.encode())
         if self.is_finished:
             return frozenset()
         (self.folder / PARTS).mkdir(exist_ok=True)
@@ -98,7 +98,7 @@ class Store:
             self._write_archive(chunk, made)
         sink = io.BytesIO()
         parquet().write_table(self._table([one.row for one in made]), sink)
-        _write(self.folder / PARTS / f"{chunk.begin:09}-{chunk.end:09}.parquet", sink.getvalue())
+        write_atomically(self.folder / PARTS / f"{chunk.begin:09}-{chunk.end:09}.parquet", sink.getvalue())
 
     def _write_folder(self, one: Made) -> None:
         if not one.files:
@@ -121,7 +121,7 @@ class Store:
         (_fill_tar if self._packing == "tar" else _fill_zip)(sink, contents)
         name = f"{chunk.begin:06}-{chunk.end - 1:06}.{self._packing}"
         (self.folder / ROBOTS).mkdir(exist_ok=True)
-        _write(self.folder / ROBOTS / name, sink.getvalue())
+        write_atomically(self.folder / ROBOTS / name, sink.getvalue())
 
     def _table(self, rows: Sequence[Row]) -> Any:
         """Return rows as a table; columns of the user's function have the types that fit their values."""
@@ -213,13 +213,6 @@ def _as_schema(table: Any, schema: Any) -> Any:
         for field in schema
     ]
     return pa.Table.from_arrays(columns, schema=schema)
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file in one step: a reader sees all of it, or the one before."""
-    fresh = path.with_name(f".{path.name}.new")
-    fresh.write_bytes(content)
-    os.replace(fresh, path)  # noqa: PTH105 the word of the operation
 
 
 def _fill_tar(sink: io.BytesIO, contents: Mapping[str, bytes]) -> None:
