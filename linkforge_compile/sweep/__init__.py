@@ -40,10 +40,11 @@ What each module knows; it imports only those above it:
     condition    `--where` -> whether a point is compiled
     rows         a Robot and diagnostics -> a row of the table
     bundle       paths -> files by digest -> a tree of them on another machine
+    manifest     two manifests -> how their sweeps differ
     work         a Request and points -> robots and rows
     store        chunks -> folders or archives, the table, the manifest
     connection   a place -> a client of Dask, with workers of the same versions
-    scheduler    chunks -> Dask's workers, or this process -> what they made
+    scheduler    chunks -> Dask's workers -> what they made
     plan         the options -> all of the above decided
     session      a plan -> a finished sweep, and what went wrong in it
 

@@ -40,22 +40,30 @@ class Bundle(NamedTuple):
         return sha256(repr(parts).encode("utf-8", "backslashreplace")).hexdigest()
 
 
-def add_files(bundle: Bundle, paths: Iterable[Path], blobs: dict[str, bytes]) -> Bundle:
-    """Return the bundle with more files, as far as they exist, and what marks the packages around them.
+class Files(NamedTuple):
+    """A bundle, and the contents of its files by digest."""
 
-    `blobs` receives the contents by digest.
-    """
-    files, folders = dict(bundle.files), dict.fromkeys(bundle.folders)
-    for path in map(as_walked, paths):
-        if str(path) in files or not is_file(path):
-            continue
-        for one in (path, *_manifests(path)):
-            if str(one) not in files:
-                content = one.read_bytes()
-                files[str(one)] = digest = sha256(content).hexdigest()
-                blobs[digest] = content
-        folders |= dict.fromkeys(str(above / ".git") for above in path.parents if exists(above / ".git"))
-    return bundle._replace(files=files, folders=tuple(folders))
+    bundle: Bundle
+    blobs: dict[str, bytes]
+
+    def with_paths(self, paths: Iterable[Path]) -> Files:
+        """Return the files with more, as far as they exist, and what marks the packages around them.
+
+        Without new ones, the bundle is the same object. `blobs` receives the contents.
+        """
+        files, folders = dict(self.bundle.files), dict.fromkeys(self.bundle.folders)
+        for path in map(as_walked, paths):
+            if str(path) in files or not is_file(path):
+                continue
+            for one in (path, *_manifests(path)):
+                if str(one) not in files:
+                    content = one.read_bytes()
+                    files[str(one)] = digest = sha256(content).hexdigest()
+                    self.blobs[digest] = content
+            folders |= dict.fromkeys(str(above / ".git") for above in path.parents if exists(above / ".git"))
+        if len(files) == len(self.bundle.files):
+            return self
+        return self._replace(bundle=self.bundle._replace(files=files, folders=tuple(folders)))
 
 
 def _manifests(path: Path) -> Iterator[Path]:
@@ -112,13 +120,13 @@ class Tree:
                         os.environ[name] = value
 
 
-def changed_files(bundle: Bundle) -> tuple[str, ...]:
-    """Return the files of a bundle that have another content by now, or are gone."""
+def changed_files(files: Mapping[str, str]) -> list[str]:
+    """Return the files, of digests by path, that have another content by now, or are gone."""
 
-    def is_changed(path: str, digest: str) -> bool:
+    def digest_of(path: str) -> str | None:
         try:
-            return sha256(Path(path).read_bytes()).hexdigest() != digest
+            return sha256(Path(path).read_bytes()).hexdigest()
         except OSError:
-            return True
+            return None
 
-    return tuple(path for path, digest in bundle.files.items() if is_changed(path, digest))
+    return [path for path, digest in files.items() if digest_of(path) != digest]

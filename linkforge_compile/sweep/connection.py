@@ -114,7 +114,7 @@ def _security(address: str, files: Mapping[str, str]) -> Any:
 
 def _reason(error: BaseException, address: str) -> str:
     """Return why there is no connection; Dask's own words name sockets and its documentation."""
-    while error.__cause__ is not None and not isinstance(error, TimeoutError):
+    while error.__cause__ is not None:
         inner = error.__cause__
         if isinstance(inner, ConnectionRefusedError):
             return "no program listens there"
@@ -127,7 +127,8 @@ def _reason(error: BaseException, address: str) -> str:
         return "it has no TLS (tcp://…), or does not accept your certificate"
     if isinstance(error, ConnectionResetError) and not address.startswith("tls://"):
         return "it closed the connection; with TLS, its address begins with tls://"
-    return error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return text or f"it does not answer within {CONNECTING:g} s"
 
 
 def require_same_versions(client: Any) -> None:

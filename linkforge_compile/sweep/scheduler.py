@@ -1,4 +1,4 @@
-"""Run chunks in this process, or on the workers of a cluster."""
+"""Run chunks on the workers of a cluster."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from concurrent.futures import CancelledError
 from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkforge_compile._version import __version__
 from linkforge_compile.roots import exists
 from linkforge_compile.sweep.arrow import distributed
-from linkforge_compile.sweep.bundle import Bundle, Tree
+from linkforge_compile.sweep.bundle import Bundle, Files, Tree
 from linkforge_compile.sweep.connection import RETRIES, require_same_versions
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.points import Point
@@ -31,37 +31,25 @@ Grow = Callable[[list[Made], Bundle], Bundle]
 """Returns the bundle with the files that compiled points lack, the same one if there are none."""
 
 
-class Files(NamedTuple):
-    """The bundle that the client keeps up to date, and the contents of its files by digest."""
-
-    bundle: Bundle
-    blobs: dict[str, bytes]
-
-
-def run_here(request: Request, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
-    """Yield each chunk with what this process made of it."""
-    for chunk in chunks:
-        yield chunk, make_all(request, points_of(chunk))
-
-
 class Cluster:
     """Sends chunks to the workers of a client, with the files that they need, and collects what they make."""
 
     def __init__(self, client: Any, request: Request, files: Files, grow: Grow) -> None:
         self._client, self._request, self._grow = client, request, grow
-        self._bundle, self._blobs = files
+        self.bundle, self._blobs = files
+        """The files on which all depends that was yielded so far, and what came with them."""
         self._sent: set[str] = set()
         self._setups: list[Any] = []
         self._send_setup()
 
     def _send_setup(self) -> None:
         """Send what the workers do not have yet, as tasks, whose results a lost worker does not take along."""
-        new = {digest: self._blobs[digest] for digest in set(self._bundle.files.values()) - self._sent}
+        new = {digest: self._blobs[digest] for digest in set(self.bundle.files.values()) - self._sent}
         self._sent |= set(new)
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Sending large graph")
             self._setups.append(self._client.submit(_as_it_is, new, pure=False))
-            self._job = self._client.submit(_as_it_is, _pickled((self._request, self._bundle, __version__)), pure=False)
+            self._job = self._client.submit(_as_it_is, _pickled((self._request, self.bundle, __version__)), pure=False)
 
     def run(self, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
         """Yield each chunk with what was made of it, in the order in which they are done.
@@ -73,7 +61,7 @@ class Cluster:
 
         def send(chunk: Chunk, points: list[Point]) -> None:
             future = self._client.submit(_work, self._job, self._setups, points, pure=False, retries=RETRIES)
-            sent[future] = chunk, points, self._bundle
+            sent[future] = chunk, points, self.bundle
             done.add(future)
 
         def send_next() -> None:
@@ -114,11 +102,11 @@ class Cluster:
         """Whether points lacked files that the client has, which are in the bundle by now."""
         if not any(one.is_about_files for one in made):
             return False
-        grown = self._grow(made, self._bundle)
-        if grown is not self._bundle:
-            self._bundle = grown
+        grown = self._grow(made, self.bundle)
+        if grown is not self.bundle:
+            self.bundle = grown
             self._send_setup()
-        return self._bundle is not bundle
+        return self.bundle is not bundle
 
 
 def _as_it_is(value: object) -> object:

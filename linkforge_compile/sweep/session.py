@@ -9,16 +9,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from linkforge_compile.overview.figures import mesh_files
-from linkforge_compile.sweep.bundle import Bundle, add_files, changed_files
+from linkforge_compile.sweep.bundle import Bundle, Files, changed_files
 from linkforge_compile.sweep.connection import cluster
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.points import Point
-from linkforge_compile.sweep.scheduler import Cluster, Files, run_here
+from linkforge_compile.sweep.scheduler import Cluster
 from linkforge_compile.sweep.store import Chunk, Store, chunks_of
-from linkforge_compile.sweep.work import ABOUT_FILES, Made, Request, compile_point, make
+from linkforge_compile.sweep.work import ABOUT_FILES, Made, Request, compile_point, files_of, make, make_all
 
 Progress = Callable[[int, int], None]
 """Takes how many robots are done, and how many of them have errors."""
@@ -58,14 +57,17 @@ def execute(
         todo = [chunk for chunk in chunks_of(plan.size, plan.chunk) if chunk not in done]
         count, failed = plan.size - sum(chunk.end - chunk.begin for chunk in todo), 0
         progress(count, failed)
-        for chunk, made in _results(plan, files, place, todo):
+        for chunk, made, bundle in _results(plan, files, place, todo):
             with _write_errors(store.folder):
+                if bundle is not files.bundle:
+                    files = files._replace(bundle=bundle)
+                    store.update(plan.manifest(bundle, packing))
                 store.add(chunk, made)
             count += len(made)
             failed += sum(bool(one.row["errors"]) for one in made)
             summary.compiled += len(made)
             progress(count, failed)
-        if changed := changed_files(files.bundle):
+        if changed := changed_files(files.bundle.files):
             raise SweepError(f"'{changed[0]}' changed while the sweep ran; remove the folder, and start it again")
         with _write_errors(store.folder):
             store.finish()
@@ -85,34 +87,38 @@ def _write_errors(folder: Path) -> Iterator[None]:
 
 
 def collect_files(plan: Plan) -> Files:
-    """Compile the first point, and return the files that it reads."""
-    return files_of(plan.request, plan.points_of(Chunk(0, 1))[0], Files(Bundle.of_here(), {}))
+    """Compile the first point, and return the files that it depends on."""
+    return with_files_of(plan.request, plan.points_of(Chunk(0, 1))[0], Files(Bundle.of_here(), {}))
 
 
-def files_of(request: Request, point: Point, files: Files) -> Files:
-    """Return the files with all that a point reads, and the meshes that it only names."""
-    compilation = compile_point(request, point)
-    meshes = mesh_files(compilation.robot).values() if compilation.robot else ()
-    paths = (*compilation.files, *(one for one in meshes if isinstance(one, Path)))
-    return files._replace(bundle=add_files(files.bundle, paths, files.blobs))
+def with_files_of(request: Request, point: Point, files: Files) -> Files:
+    """Return the files with all that a point depends on."""
+    return files.with_paths(files_of(compile_point(request, point)))
 
 
-def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Iterator[tuple[Chunk, list[Made]]]:
+Results = Iterator[tuple[Chunk, list[Made], Bundle]]
+"""Chunks with what was made of them, in the order in which they are done, and the files on which all depend so far."""
+
+
+def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Results:
     if not chunks:
         return
     if place.is_here:
-        yield from run_here(plan.request, chunks, plan.points_of)
+        for chunk in chunks:
+            made = make_all(plan.request, plan.points_of(chunk))
+            files = files.with_paths({path for one in made for path in one.read})
+            yield chunk, made, files.bundle
         return
     with cluster(place._replace(jobs=min(place.jobs, len(chunks)))) as client:
         yield from results_of(plan, files, client, chunks)
 
 
-def results_of(plan: Plan, files: Files, client: Any, chunks: Iterable[Chunk]) -> Iterator[tuple[Chunk, list[Made]]]:
-    """Yield what the workers of a client make of chunks, in the order in which they are done."""
+def results_of(plan: Plan, files: Files, client: Any, chunks: Iterable[Chunk]) -> Results:
+    """Yield what the workers of a client make of chunks."""
     judge = Judge(plan, files.blobs)
     work = Cluster(client, plan.request, files, judge.grow)
     for chunk, made in work.run(chunks, plan.points_of):
-        yield chunk, [judge.final(one) for one in made]
+        yield chunk, [judge.final(one) for one in made], work.bundle
 
 
 class Judge:
@@ -129,8 +135,8 @@ class Judge:
         """Return the bundle with the files that a point reads here, the same one if it has them all."""
         for one in made:
             if not self._is_true(one):
-                more = files_of(self._plan.request, one.point, Files(bundle, self._blobs)).bundle
-                if more.files != bundle.files:
+                more = with_files_of(self._plan.request, one.point, Files(bundle, self._blobs)).bundle
+                if more is not bundle:
                     return more  # may be what all others of the chunk lack
         return bundle
 

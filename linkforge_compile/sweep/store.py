@@ -17,6 +17,7 @@ from linkforge_compile.atomic_file import write_atomically
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.sweep.arrow import arrow, parquet
 from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.manifest import differences, with_files
 from linkforge_compile.sweep.rows import COUNTS, FIGURES, TEXTS, Cell, Row
 from linkforge_compile.sweep.work import Made
 from linkforge_compile.units import Dimension
@@ -48,13 +49,14 @@ class Store:
     def __init__(self, folder: Path, packing: str, columns: Mapping[str, Parameter], *, has_variants: bool) -> None:
         self.folder, self._packing = folder, packing
         self._schema = schema_of(columns, has_variants=has_variants)
+        self._manifest: Mapping[str, Any] = {}
 
     def begin(self, manifest: Mapping[str, object], *, resume: bool) -> frozenset[Chunk]:
         """Write the manifest, or compare it with that of the sweep to resume; return the chunks that are done.
 
         SweepError if the folder has a sweep that is not to be resumed, or another one than this.
         """
-        file, text = self.folder / MANIFEST, json.dumps(manifest, ensure_ascii=False, indent=2) + "\n"
+        file = self.folder / MANIFEST
         if file.exists() and not (resume or self._has_robots):
             file.unlink()  # of a sweep that ended before its first chunk, such as one whose scheduler was not there
         if file.exists():
@@ -62,16 +64,26 @@ class Store:
                 raise SweepError(
                     f"'{self.folder}' has a sweep; continue it with --resume, remove the folder, or choose another one"
                 )
-            self._require_same(json.loads(file.read_text("utf-8")), json.loads(text))
+            self._manifest = json.loads(file.read_text("utf-8"))
+            if found := differences(self._manifest, manifest):
+                lines = "\n  ".join((f"'{self.folder}' has another sweep, so --resume cannot continue it:", *found))
+                raise SweepError(lines)
         elif self.folder.is_dir() and any(one.name != PARTS for one in self.folder.iterdir()):
             raise SweepError(f"'{self.folder}' has files that no sweep wrote; choose an empty or a new folder")
         self.folder.mkdir(parents=True, exist_ok=True)
-        if not file.exists():
-            write_atomically(file, text.encode())
+        self.update(manifest)
         if self.is_finished:
             return frozenset()
         (self.folder / PARTS).mkdir(exist_ok=True)
         return frozenset(Chunk(*map(int, path.stem.split("-"))) for path in (self.folder / PARTS).glob("*.parquet"))
+
+    def update(self, manifest: Mapping[str, object]) -> None:
+        """Write the manifest if it has files that the one in the folder lacks."""
+        united = with_files(manifest, self._manifest)
+        if united != self._manifest:
+            text = json.dumps(united, ensure_ascii=False, indent=2) + "\n"
+            write_atomically(self.folder / MANIFEST, text.encode())
+            self._manifest = united
 
     @property
     def _has_robots(self) -> bool:
@@ -81,13 +93,6 @@ class Store:
     def is_finished(self) -> bool:
         """Whether the table is there, which is written last."""
         return (self.folder / TABLE).exists()
-
-    def _require_same(self, theirs: Mapping[str, object], ours: Mapping[str, object]) -> None:
-        different = [name for name in {**theirs, **ours} if theirs.get(name) != ours.get(name)]
-        if not different:
-            return
-        found = "; ".join(_difference(name, theirs.get(name), ours.get(name)) for name in different)
-        raise SweepError(f"'{self.folder}' has another sweep, so --resume cannot continue it; these differ: {found}")
 
     def add(self, chunk: Chunk, made: Sequence[Made]) -> None:
         """Write the robots of a chunk, then its part of the table."""
@@ -231,14 +236,3 @@ def _fill_zip(sink: io.BytesIO, contents: Mapping[str, bytes]) -> None:
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in contents.items():
             archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
-
-
-def _difference(name: str, theirs: object, ours: object) -> str:
-    if isinstance(theirs, Mapping) and isinstance(ours, Mapping):  # files by digest, or options
-        return f"{name} ({', '.join(sorted(one for one in {**theirs, **ours} if theirs.get(one) != ours.get(one)))})"
-    return f"{name}: {_short(theirs)} before, {_short(ours)} now"
-
-
-def _short(value: object) -> str:
-    text = "nothing" if value is None else json.dumps(value, ensure_ascii=False)
-    return text if len(text) <= 100 else f"{text[:60]}…{text[-30:]}"

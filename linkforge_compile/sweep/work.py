@@ -14,6 +14,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.formats import Rendering, formats_or_default
+from linkforge_compile.overview.figures import mesh_files
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.sweep.bundle import Tree
@@ -66,13 +67,15 @@ class Request(NamedTuple):
 class Made(NamedTuple):
     """A compiled point: its row, and its files by name, none if it has errors or none are requested.
 
-    `is_about_files` if a diagnostic may be about a file that is missing here and not on the client.
+    `is_about_files` if a diagnostic may be about a file that is missing here and not on the client. `read` are the
+    files that it depends on; a tree has no others than those of the client.
     """
 
     point: Point
     row: Row
     files: Mapping[str, str]
     is_about_files: bool = False
+    read: tuple[Path, ...] = ()
 
 
 def make_all(request: Request, points: Sequence[Point], tree: Tree | None = None) -> list[Made]:
@@ -99,13 +102,19 @@ def make(request: Request, point: Point, tree: Tree | None = None) -> Made:
             row, files = row | _failed(str(error)), {}
         else:
             row |= _apply(request.function, robot, values, row) if request.function else {}
-    return Made(point, row, files if request.has_files else {}, is_about_files)
+    return Made(point, row, files if request.has_files else {}, is_about_files, () if tree else files_of(compilation))
 
 
 def compile_point(request: Request, point: Point, tree: Tree | None = None) -> Compilation:
     """Compile the spec at a point."""
     spec = tree.place(request.spec) if tree else request.spec
     return analyse_path(spec, request.settings(point, tree)).compilation
+
+
+def files_of(compilation: Compilation) -> tuple[Path, ...]:
+    """Return the files that a robot was made from, and the meshes that it only names."""
+    meshes = mesh_files(compilation.robot).values() if compilation.robot else ()
+    return (*compilation.files, *(one for one in meshes if isinstance(one, Path)))
 
 
 def values_of(request: Request, point: Point) -> dict[str, object]:

@@ -154,37 +154,66 @@ def test_a_folder_with_other_files_is_refused(folder: Path):
 
 
 def test_another_sweep_is_not_resumed(folder: Path):
-    sweep(folder, "--set", "reach=0.4m,1m")
+    sweep(folder, "--set", "reach=0.4m,1m", "-p", "title=a")
     (folder / "arm.robot.yaml").write_text(f"{ARM}\n")
-    code, text = sweep(folder, "--set", "reach=0.4m,2m", "--resume")
-    assert code == 2
-    assert 'differ: files (arm.robot.yaml); set: ["reach=0.4m,1m"] before, ["reach=0.4m,2m"] now' in text
+    code, text = sweep(folder, "--set", "reach=0.4m:1m:5", "-p", "title=a", "--where", "$(reach > 0)", "--resume")
+    assert (code, text.splitlines()) == (
+        2,
+        [
+            "linkforge sweep: 'out' has another sweep, so --resume cannot continue it:",
+            "  'arm.robot.yaml' changed",
+            "  --set: reach=0.4m,1m before, reach=0.4m:1m:5 now",
+            "  --where: nothing before, $(reach > 0) now",
+        ],
+    )
 
 
-def test_an_interrupted_sweep_goes_on(folder: Path, monkeypatch: pytest.MonkeyPatch):
-    from linkforge_compile.sweep import session
+def test_a_file_that_only_a_later_robot_reads_is_compared(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    """A parameter chooses the file of a module; the sweep is interrupted when both tools were compiled."""
+    write_tools(folder)
+    words = ("--set", "tool=hand,hook,hand", "--chunk", "1")
+    interrupt_after(2, monkeypatch)
+    assert sweep(folder, *words)[0] == 130
+    monkeypatch.undo()
+    assert list(json.loads((folder / "out/sweep.json").read_text())["files"]) == [
+        f"{name}.robot.yaml" for name in ("arm", "hand", "hook")
+    ]
+    text = (folder / "hook.robot.yaml").read_text()
+    (folder / "hook.robot.yaml").write_text(text.replace("mass: 2", "mass: 3"))
+    code, message = sweep(folder, *words, "--resume")
+    assert (code, message.splitlines()[1:]) == (2, ["  'hook.robot.yaml' changed"])
+    (folder / "hook.robot.yaml").write_text(text)
+    assert sweep(folder, *words, "--resume") == (0, "3 robots in out, 2 of them before\n")
+
+
+def interrupt_after(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Ctrl-C come when so many chunks are written."""
     from linkforge_compile.sweep.store import Store
 
-    words = ("--sample", "12", "--seed", "2", "--chunk", "3")
-    sweep(folder, *words)
-    whole = contents(folder / "out")
-    shutil.rmtree(folder / "out")
     add, added = Store.add, []
 
     def interrupted(self: Store, chunk, made) -> None:
-        if len(added) == 2:
+        if len(added) == count:
             raise KeyboardInterrupt
         added.append(chunk)
         add(self, chunk, made)
 
-    monkeypatch.setattr(session.Store, "add", interrupted)
+    monkeypatch.setattr(Store, "add", interrupted)
+
+
+def test_an_interrupted_sweep_goes_on(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    words = ("--sample", "12", "--seed", "2", "--chunk", "3")
+    sweep(folder, *words)
+    whole = contents(folder / "out")
+    shutil.rmtree(folder / "out")
+    interrupt_after(2, monkeypatch)
     code, text = sweep(folder, *words)
     assert (code, text) == (
         130,
         "linkforge sweep: interrupted; the same command with --resume goes on in 'out'\n",
     )
     assert not (folder / "out/table.parquet").exists()
-    monkeypatch.setattr(session.Store, "add", add)
+    monkeypatch.undo()
     assert sweep(folder, *words, "--resume") == (0, "12 robots in out, 6 of them before\n")
     assert contents(folder / "out") == whole
 
@@ -199,8 +228,8 @@ def test_a_sweep_that_ended_before_its_first_robot_is_in_nobodys_way(folder: Pat
     assert sweep(folder, "--set", "reach=0.4m:1m:3") == (0, "3 robots in out\n")
 
 
-def test_modules_and_variants_by_value(folder: Path):
-    """A parameter chooses the file of a module."""
+def write_tools(folder: Path) -> None:
+    """Write an arm whose parameter chooses the file of a module, a hand or a hook."""
     for name, mass in (("hand", 1), ("hook", 2)):
         text = (
             f"linkforge: 1\nname: {name}\nlinks: {{palm: {{visual: {{sphere: 0.1}}, inertial: {{mass: {mass} kg}}}}}}\n"
@@ -210,6 +239,10 @@ def test_modules_and_variants_by_value(folder: Path):
         "linkforge: 1\nname: arm\nparameters: {tool: hand}\nlinks: {base: {}}\n"
         "modules: {tool: {use: $(tool).robot.yaml, parent: base}}\n"
     )
+
+
+def test_modules_by_value(folder: Path):
+    write_tools(folder)
     assert sweep(folder, "--set", "tool=hand,hook,hok")[0] == 1
     assert [row["robot_mass"] for row in rows(folder)] == [1, 2, None]
 
