@@ -5,9 +5,10 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.modules import SET_TWICE, UNKNOWN_PARAMETER
@@ -25,11 +26,38 @@ _END = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s
 _FORMS = "NAME=START:STOP:COUNT, such as reach=0.4m:1m:20, or NAME=VALUE,VALUE,…"
 
 
+class Rows(Protocol):
+    """A sequence of rows of texts."""
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, at: int, /) -> tuple[str, ...]: ...
+
+
 class Axis(NamedTuple):
     """Values that vary together: a row of texts, one for each of the names."""
 
     names: tuple[str, ...]
-    rows: Sequence[tuple[str, ...]]
+    rows: Rows
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Rows of one number each, at equal distances with both ends included; each is made when it is used."""
+
+    first: Fraction
+    last: Fraction
+    count: int
+    unit: str = ""
+    is_whole: bool = False
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, at: int) -> tuple[str]:
+        # Of exact fractions, so that 0.1:0.5:5 has 0.3 in it and not the sum of rounded steps.
+        number = self.first + (self.last - self.first) * Fraction(at, self.count - 1)
+        return (str(int(number)) if self.is_whole else f"{number_text(float(number))} {self.unit}".strip(),)
 
 
 class Interval(NamedTuple):
@@ -164,18 +192,14 @@ class AxisReader:
         if unit != other:  # of two units, or of a unit and none: in SI units
             first, last = (_si(end, parameter) for end in ends)
             unit = _unit_of(parameter)
-        # Of exact fractions, so that 0.1:0.5:5 has 0.3 in it and not the sum of rounded steps.
-        numbers = [first + (last - first) * Fraction(i, count - 1) for i in range(count)]
-        if parameter.type.name == "integer":
-            if broken := next((one for one in numbers if one.denominator != 1), None):
-                raise SweepError(
-                    f"'{name}' takes whole numbers, and this range gives {float(broken):g}; choose a COUNT whose steps "
-                    f"are whole, such as {first}:{last}:{abs(int(last - first)) + 1}"
-                )
-            texts = [str(int(one)) for one in numbers]
-        else:
-            texts = [f"{number_text(float(one))} {unit}".strip() for one in numbers]
-        self.axes.append(Axis((name,), [(text,) for text in texts]))
+        step = (last - first) / (count - 1)
+        is_whole = parameter.type.name == "integer"
+        if is_whole and step.denominator != 1:
+            raise SweepError(
+                f"'{name}' takes whole numbers, and this range gives {float(first + step):g}; choose a COUNT whose steps "
+                f"are whole, such as {first}:{last}:{abs(int(last - first)) + 1}"
+            )
+        self.axes.append(Axis((name,), Steps(first, last, count, unit, is_whole)))
 
     def _own_interval(self, name: str, parameter: Parameter | None) -> Interval:
         """Return what to draw a parameter from by its own limits; SweepError with the way out if it has none."""

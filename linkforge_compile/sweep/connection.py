@@ -25,13 +25,15 @@ _WAITING_FOR_WORKERS = 30.0
 
 _CONFIGURATION = {
     "distributed.scheduler.allowed-failures": RETRIES,
+    # Dask keeps so many messages for its developers, and with them the points of as many chunks.
+    "distributed.admin.low-level-log-length": 100,
     # Dask watches its processes for its dashboard, which takes a tenth of a core with two workers.
     "distributed.worker.profile.enabled": False,
     "distributed.worker.memory.monitor-interval": "1s",
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.system-monitor.interval": "10s",
 }
-"""The settings of Dask for processes of this machine."""
+"""The settings of Dask for this process and those that it starts."""
 
 _PACKAGES = ("linkforge_compile", "cloudpickle", "distributed")
 """What must have the same version in all processes: robots depend on the first, messages on the others."""
@@ -46,35 +48,41 @@ def cluster(place: Place) -> Iterator[Any]:
             be started.
 
     """
-    library = distributed()
+    distributed()
+    import dask
     from distributed.utils import silence_logging_cmgr as silent
 
-    if place.scheduler is not None:
-        with silent(logging.CRITICAL), _connected(place.scheduler, place.security) as client:
-            require_same_versions(client)
-            yield client
-        return
-    import dask
-
     with dask.config.set(_CONFIGURATION):
-        try:
-            # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
-            local = library.LocalCluster(
-                n_workers=place.jobs,
-                threads_per_worker=1,
-                host="127.0.0.1",
-                dashboard_address="127.0.0.1:0",
-                scheduler_kwargs={"dashboard": False},
-                security=library.Security.temporary(),
-                silence_logs=logging.CRITICAL,
-            )
-        except RuntimeError as error:
-            raise SweepError(
-                f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
-                "with one job no other process is needed"
-            ) from error
-        with local, library.Client(local, set_as_default=False) as client:
-            yield client
+        if place.scheduler is None:
+            with _local(place.jobs) as client:
+                yield client
+        else:
+            with silent(logging.CRITICAL), _connected(place.scheduler, place.security) as client:
+                require_same_versions(client)
+                yield client
+
+
+@contextmanager
+def _local(jobs: int) -> Iterator[Any]:
+    library = distributed()
+    try:
+        # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
+        local = library.LocalCluster(
+            n_workers=jobs,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            scheduler_kwargs={"dashboard": False},
+            security=library.Security.temporary(),
+            silence_logs=logging.CRITICAL,
+        )
+    except RuntimeError as error:
+        raise SweepError(
+            f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
+            "with one job no other process is needed"
+        ) from error
+    with local, library.Client(local, set_as_default=False) as client:
+        yield client
 
 
 def _connected(address: str, security: Mapping[str, str]) -> Any:
