@@ -10,10 +10,12 @@
 `grid` has, by parameter, a text as in `--set`, or its values: numbers in SI units, or texts with units. With `sample`,
 that many random points are drawn instead, and a text such as "0.4m:1m" is an interval.
 
-The function gets a Robot and the values of its point by parameter: SI numbers, texts and truth values. It returns a
-number, which becomes the column `result`, a mapping of columns to numbers, texts or truth values, or None. What it
+The function gets a Robot and the values of its point by parameter: SI numbers, strings and booleans. It returns a
+number, which becomes the column `result`, a mapping of columns to numbers, strings or booleans, or None. What it
 raises is a diagnostic of that robot. With `jobs` above 1, processes of a Dask cluster on this machine compile, and
-receive the function by cloudpickle; the script that calls `run` then needs `if __name__ == "__main__":`.
+receive the function by cloudpickle; the script that calls `run` then needs `if __name__ == "__main__":`. With
+`scheduler`, the workers of another cluster do; `security` has its files of TLS by the names of Dask's `Security`:
+`tls_ca_file`, `tls_client_cert` and `tls_client_key`.
 
 The table has a row for each robot, in the order of the points. docs/sweep.md describes its columns.
 
@@ -30,15 +32,16 @@ client finds then counts.
 What each module knows; it imports only those above it:
 
     errors       what is wrong with a sweep as a whole
+    wording      how messages name options of the command, or arguments of `run`
     place        where robots are compiled
     arrow        pyarrow and distributed, which the extra `sweep` brings
     declared     a spec -> its parameters with types and constant limits
     cells        values as texts, and the cells of a line of CSV
     axes         `--set` -> axes of texts, and intervals
     points       axes, intervals -> the point of an index
+    rows         a Robot and diagnostics -> a row of the table
     value_table  a CSV or Parquet file -> an axis
     condition    `--where` -> whether a point is compiled
-    rows         a Robot and diagnostics -> a row of the table
     bundle       paths -> files by digest -> a tree of them on another machine
     manifest     two manifests -> how their sweeps differ
     work         a Request and points -> robots and rows
@@ -65,6 +68,7 @@ from linkforge_compile.file_names import stem_of
 from linkforge_compile.sweep.cells import value_text
 from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
 from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.wording import Wording
 
 if TYPE_CHECKING:
     from linkforge_compile.sweep.plan import Plan
@@ -91,13 +95,14 @@ def run(
     resume: bool = False,
     jobs: int = 1,
     scheduler: str | None = None,
+    security: Mapping[str, str | Path] | None = None,
     max_points: int = MAX_POINTS,
     allow_outside: bool = False,
 ) -> Any:
     """Compile a spec at every point of a grid, and return the `pyarrow.Table` of the robots.
 
-    The words are those of `linkforge sweep`, and `function` is described at the top of this module. `output` is the
-    folder of robots, table and manifest, None for the table alone.
+    The arguments are the options of `linkforge sweep`, or described at the top of this module. Without `output`, the
+    folder of robots, table and manifest, only the table is made.
 
     Raises:
         SweepError: for what is wrong with the sweep as a whole; faults of single robots are in the table.
@@ -105,13 +110,13 @@ def run(
     """
     from linkforge_compile.sweep.plan import Choice, plan_of
 
-    names, path = tuple(variants), None if values is None else Path(values)
-    about = {**(options or {})}, tuple(formats), allow_outside
-    request = _request_of(spec, parameters or {}, names, packages or {}, about)
+    names, table = tuple(variants), None if values is None else Path(values)
+    request = _request_of(spec, parameters or {}, names, packages or {}, options or {})
+    request = request._replace(formats=tuple(formats), allow_outside=allow_outside, function=function)
     sets = tuple(_set_text(name, value) for name, value in (grid or {}).items())
-    choice = Choice(sets, names, path, where, sample, seed, max_points)
-    plan = plan_of(request._replace(has_files=output is not None, function=function), choice)
-    return _table_of(plan, None if output is None else Path(output), Place(jobs, scheduler), resume=resume)
+    choice = Choice(sets, names, table, where, sample, seed, max_points, words=Wording(is_python=True))
+    place = Place(jobs, scheduler, {name: str(path) for name, path in (security or {}).items()})
+    return _table_of(plan_of(request._replace(has_files=output is not None), choice), output, place, resume=resume)
 
 
 def _request_of(
@@ -119,31 +124,26 @@ def _request_of(
     parameters: Mapping[str, object],
     variants: tuple[str, ...],
     packages: Mapping[str, str | Path],
-    about: tuple[dict[str, str], tuple[str, ...], bool],
+    options: Mapping[str, str],
 ) -> Request:
     from linkforge_compile.sweep.work import Request
 
-    options, formats, allow_outside = about
-    return Request(
-        str(spec),
-        stem_of(spec),
-        tuple(f"{name}={value_text(value)}" for name, value in parameters.items()),
-        variants[0] if len(variants) == 1 else None,
-        {name: str(path) for name, path in packages.items()},
-        {"gazebo": "gz", **options},
-        formats,
-        allow_outside,
-    )
+    texts = tuple(f"{name}={value_text(value)}" for name, value in parameters.items())
+    variant = variants[0] if len(variants) == 1 else None
+    paths = {name: str(path) for name, path in packages.items()}
+    return Request(str(spec), stem_of(spec), texts, variant, paths, {"gazebo": "gz", **options})
 
 
-def _table_of(plan: Plan, output: Path | None, place: Place, *, resume: bool) -> Any:
+def _table_of(plan: Plan, output: str | Path | None, place: Place, *, resume: bool) -> Any:
     """Run a plan in a folder, for None a temporary one, and return its table."""
     from linkforge_compile.sweep.session import execute
     from linkforge_compile.sweep.store import Store
 
     with TemporaryDirectory(prefix="linkforge-sweep-") as temporary:
         packing = "none" if output is None else "folders"
-        store = Store(output or Path(temporary), packing, plan.request.columns, has_variants=plan.has_variants)
+        store = Store(
+            Path(temporary if output is None else output), packing, plan.request.columns, has_variants=plan.has_variants
+        )
         execute(plan, store, place, packing, resume=resume)
         return store.table()
 

@@ -17,13 +17,13 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.sweep.cells import Cell, cells_of, value_text
 from linkforge_compile.sweep.declared import Declared, untyped, value_of
 from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.units import Dimension, number_text, parse_quantity
 
 VARIANT = "--variant"
 """The name of the axis of variants, which no parameter can have."""
 
 _END = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*")
-_FORMS = "NAME=START:STOP:COUNT, such as reach=0.4m:1m:20, or NAME=VALUE,VALUE,…"
 
 
 class Rows(Protocol):
@@ -86,24 +86,26 @@ class _End(NamedTuple):
 class AxisReader:
     """Reads the options of one sweep; faults with a place go to `sink`, others raise SweepError."""
 
-    def __init__(self, declared: Declared, sink: Diagnostics, *, samples: bool, max_points: int) -> None:
-        self._declared, self._sink = declared, sink
+    def __init__(
+        self, declared: Declared, sink: Diagnostics, words: Wording, *, samples: bool, max_points: int
+    ) -> None:
+        self._declared, self._sink, self._words = declared, sink, words
         self._samples, self._max_points = samples, max_points
         self._spans: dict[str, Span] = {}
         self.axes: list[Axis] = []
         self.intervals: list[Interval] = []
         self.parameters: dict[str, Parameter] = {}
 
-    def read(self, text: str, shown: str = "--set ") -> None:
-        """Read one `--set`; `shown` precedes its text in messages."""
+    def read(self, text: str) -> None:
+        """Read one `--set`."""
         name, equals, values = text.partition("=")
-        file = SourceFile("<command line>", f"{shown}{text}")
-        at = len(shown) + 1
+        source, before = self._words.source("set")
+        file, at = SourceFile(source, f"{before}{text}"), len(before) + 1
         key = Span(file, 1, at, 1, at + len(name))
         where = Span(file, 1, at + len(name) + 1, 1, at + len(text))
         name = name.strip()
         if not name or (not equals and not self._samples) or (equals and not values.strip()):
-            raise SweepError(f"{shown}takes {_FORMS}; found '{text}'")
+            raise SweepError(f"{self._words.forms}; found '{text}'")
         parameter = self._declare(name, key)
         if parameter is None and name not in self._declared.parameters:
             return
@@ -119,7 +121,8 @@ class AxisReader:
         """Return a list of values: by the rules of CSV, so that a value in quotes may have commas."""
         if parameter and parameter.type.is_structured and values.lstrip().startswith(("[", "{")):
             raise SweepError(
-                f"'{name}' is a {parameter.type.name}; write each in double quotes: --set '{name}=\"[…]\",\"[…]\"'"
+                f"'{name}' is a {parameter.type.name}; write each in double quotes, as in "
+                + ('"[…]","[…]", or a list of lists' if self._words.is_python else f'--set \'{name}="[…]","[…]"\'')
             )
         try:
             row = next(csv.reader([values], skipinitialspace=True, strict=True))
@@ -150,7 +153,11 @@ class AxisReader:
     def _read_range(self, name: str, parameter: Parameter | None, text: str, where: Span) -> None:
         start, stop, *more = text.split(":")
         if len(more) > 1 or (not more and not self._samples):
-            way = "" if more else "; add a COUNT, or --sample N for random values between the two"
+            way = (
+                ""
+                if more
+                else f"; add a COUNT, or {self._words.option('sample', 'N')} for random values between the two"
+            )
             raise SweepError(f"a range is START:STOP:COUNT, found '{name}={text}'{way}")
         parameter = parameter or self._type_of_range(name, start)
         self.parameters[name] = parameter
@@ -187,7 +194,7 @@ class AxisReader:
         if count < 2:
             raise SweepError(f"the COUNT of '{name}' is a whole number from 2, found '{count_text}'")
         if count > self._max_points:
-            raise SweepError(too_many(count, self._max_points))
+            raise SweepError(too_many(count, self._max_points, self._words))
         (first, unit), (last, other) = ends
         if unit != other:  # of two units, or of a unit and none: in SI units
             first, last = (_si(end, parameter) for end in ends)
@@ -196,8 +203,8 @@ class AxisReader:
         is_whole = parameter.type.name == "integer"
         if is_whole and step.denominator != 1:
             raise SweepError(
-                f"'{name}' takes whole numbers, and this range gives {float(first + step):g}; choose a COUNT whose steps "
-                f"are whole, such as {first}:{last}:{abs(int(last - first)) + 1}"
+                f"'{name}' takes whole numbers, and this range gives {float(first + step):g}; choose a COUNT whose "
+                f"steps are whole, such as {first}:{last}:{abs(int(last - first)) + 1}"
             )
         self.axes.append(Axis((name,), Steps(first, last, count, unit, is_whole)))
 
@@ -206,7 +213,8 @@ class AxisReader:
         if parameter and parameter.minimum is not None and parameter.maximum is not None:
             self.parameters[name] = parameter
             return _interval(parameter, number_of(parameter.minimum), number_of(parameter.maximum))
-        raise SweepError(f"'{name}' has no minimum and maximum to sample between; write --set {name}=LO:HI")
+        way = self._words.varied(name, "LO:HI")
+        raise SweepError(f"'{name}' has no minimum and maximum to sample between; write {way}")
 
     def add_own_limits(self, fixed: frozenset[str]) -> None:
         """Sample what is bounded, an enum or a boolean, and neither fixed nor varied by an option."""
@@ -226,8 +234,9 @@ class AxisReader:
             self.axes.append(Axis((name,), [(word,) for word in words]))
 
 
-def too_many(count: int, most: int) -> str:
-    return f"this sweep has {count:,} points, more than {most:,}; vary less, or allow it with --max-points {count}"
+def too_many(count: int, most: int, words: Wording) -> str:
+    way = words.option("max-points", count)
+    return f"this sweep has {count:,} points, more than {most:,}; vary less, or allow it with {way}"
 
 
 def _is_range(values: str, parameter: Parameter | None) -> bool:

@@ -19,6 +19,7 @@ from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.sweep.declared import value_of
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.points import Point
+from linkforge_compile.sweep.wording import Wording
 
 SettingsOf = Callable[[Point], Settings]
 """Returns the settings with which the robot of a point is compiled."""
@@ -27,18 +28,20 @@ SettingsOf = Callable[[Point], Settings]
 class Condition:
     """Tells which points hold, with the parameters and variables of the spec in scope."""
 
-    def __init__(self, text: str, spec: Path, settings_of: SettingsOf, parameters: Mapping[str, Parameter]) -> None:
+    def __init__(
+        self, text: str, spec: Path, settings_of: SettingsOf, parameters: Mapping[str, Parameter], words: Wording
+    ) -> None:
         """Parse the expression; without `$(` the whole text is one. SweepError with its faults."""
-        shown = f"--where {text}" if "$(" in text else f"--where $({text})"
-        self._file = SourceFile("<command line>", shown)
-        start = len("--where ")
+        source, before = words.source("where")
+        shown, start = f"{before}{text}" if "$(" in text else f"{before}$({text})", len(before)
+        self._file, self._option = SourceFile(source, shown), words.option("where")
         span = Span(self._file, 1, start + 1, 1, len(shown) + 1)
         sink = Diagnostics()
         template = parse_template(shown[start:], span, sink)
         if template is None:
-            raise SweepError("--where cannot be read", sink.sorted())
+            raise SweepError(f"{self._option} cannot be read", sink.sorted())
         if len(template.parts) != 1 or isinstance(template.parts[0], str):
-            raise SweepError(f"--where takes one expression, such as '$(reach > 2 * base)', found '{text}'")
+            raise SweepError(f"{self._option} takes one expression, such as '$(reach > 2 * base)', found '{text}'")
         self._template, self._settings_of, self._parameters = template, settings_of, parameters
         self._loader: Loader | None = None
         self._spec: SpecFile | None = None
@@ -55,11 +58,11 @@ class Condition:
         value = evaluate(self._template, self._scope(point, sink), sink)
         faults = tuple(one for one in sink.sorted() if one.span and one.span.file is self._file)
         if faults:
-            raise SweepError(f"--where fails at point {point.index} ({' '.join(point.words)})", faults)
+            raise SweepError(f"{self._option} fails at point {point.index} ({' '.join(point.words)})", faults)
         if value is FAULT:
             return True
         if not isinstance(value, bool):
-            raise SweepError(f"--where takes an expression that is true or false, found {kind_name(value)}")
+            raise SweepError(f"{self._option} takes an expression that is true or false, found {kind_name(value)}")
         return value
 
     def _scope(self, point: Point, sink: Diagnostics) -> Scope:

@@ -14,14 +14,17 @@ from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PARAMETER
 from linkforge_compile.expand.arguments import arguments_from_text
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.load import is_xacro
+from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.sweep.axes import VARIANT, Axis, AxisReader, Varied, too_many
 from linkforge_compile.sweep.bundle import Bundle
 from linkforge_compile.sweep.condition import Condition
 from linkforge_compile.sweep.declared import Declared, declared_by
 from linkforge_compile.sweep.errors import MAX_POINTS, SweepError
 from linkforge_compile.sweep.points import Grid, Point, Points, Samples
-from linkforge_compile.sweep.store import Chunk, reserved_columns
+from linkforge_compile.sweep.rows import reserved_columns
+from linkforge_compile.sweep.store import Chunk
 from linkforge_compile.sweep.value_table import read_values
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import Request
 
 _CHUNK = 100
@@ -38,6 +41,7 @@ class Choice(NamedTuple):
     - `values`: a CSV or Parquet file, whose rows are combined with every `--set`.
     - `where`: an expression that a point must fulfil.
     - `sample`: how many random points, None for a grid.
+    - `words`: how messages name all this.
     """
 
     sets: tuple[str, ...] = ()
@@ -48,6 +52,7 @@ class Choice(NamedTuple):
     seed: int = 0
     max_points: int = MAX_POINTS
     chunk: int | None = None
+    words: Wording = Wording()
 
 
 class Plan(NamedTuple):
@@ -108,7 +113,9 @@ def plan_of(request: Request, choice: Choice, checked: Callable[[int, int], None
     if not is_xacro(spec):
         for name, entry in arguments_from_text(request.parameters, sink).entries.items():
             if name not in declared.parameters:
-                sink.report(UNKNOWN_PARAMETER.at(entry.key.span, name=name, near=declared.parameters, notes=()))
+                where = Span(SourceFile("<parameters>", name), 1, 1, 1, 1 + len(name))
+                span = where if choice.words.is_python else entry.key.span
+                sink.report(UNKNOWN_PARAMETER.at(span, name=name, near=declared.parameters, notes=()))
     if sink.has_errors:
         raise SweepError("the values of the sweep are wrong", sink.sorted())
     axes, parameters = list(varied.axes), dict(varied.parameters)
@@ -118,33 +125,38 @@ def plan_of(request: Request, choice: Choice, checked: Callable[[int, int], None
         raise SweepError(f"'{min(clashing)}' is the name of a column of every table, so it cannot be varied")
     points = _points(axes, varied, choice)
     if len(points) > choice.max_points:
-        raise SweepError(too_many(len(points), choice.max_points))
+        raise SweepError(too_many(len(points), choice.max_points, choice.words))
     has_variants = any(VARIANT in axis.names for axis in axes)
     request = request._replace(columns=parameters)
-    kept = None if choice.where is None else _kept(choice.where, request, points, checked)
+    kept = None if choice.where is None else _kept(choice, request, points, checked)
     count = len(points) if kept is None else len(kept)
     chunk = choice.chunk or max(1, min(_CHUNK, -(-count // _CHUNKS)))
     return Plan(request, choice, points, kept, chunk, has_variants)
 
 
 def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Diagnostics) -> Varied:
-    reader = AxisReader(declared, sink, samples=choice.sample is not None, max_points=choice.max_points)
+    words, is_sample = choice.words, choice.sample is not None
+    reader = AxisReader(declared, sink, words, samples=is_sample, max_points=choice.max_points)
     for text in choice.sets:
         reader.read(text)
-    if choice.sample is not None:
+    if is_sample:
         if choice.values is not None:
-            raise SweepError("--sample draws values and --values lists them; use one of them")
+            names = words.option("sample"), words.option("values")
+            raise SweepError(f"{names[0]} draws values and {names[1]} lists them; use one of them")
         reader.add_own_limits(fixed)
     axes, parameters = reader.axes, dict(reader.parameters)
     if choice.values is not None:
-        axis, columns = read_values(choice.values, declared, sink)
+        axis, columns = read_values(choice.values, declared, sink, words)
         if twice := set(columns).intersection(parameters):
-            raise SweepError(f"'{min(twice)}' is varied by --set and by a column of '{choice.values}'")
+            raise SweepError(
+                f"'{min(twice)}' is varied by {words.varied(min(twice), '…')} and by a column of '{choice.values}'"
+            )
         axes, parameters = [*axes, axis], parameters | dict(columns)
     if len(choice.variants) > 1:
         axes = [*axes, _variant_axis(choice.variants, declared)]
     if both := fixed.intersection(parameters):
-        raise SweepError(f"'{min(both)}' is fixed by -p and varied as well; leave one of them out")
+        name = min(both)
+        raise SweepError(f"'{name}' is varied, and set for all robots with {words.fixed(name)}; leave one of them out")
     return Varied(tuple(axes), tuple(reader.intervals), parameters)
 
 
@@ -168,9 +180,12 @@ def _require_variation(varied: Varied, choice: Choice, declared: Declared) -> No
     if varied.axes or varied.intervals:
         return
     names = ", ".join(declared.parameters) or "none"
+    words = choice.words
     if choice.sample is not None:
-        raise SweepError(f"no parameter has limits to sample between; write --set NAME=LO:HI (parameters: {names})")
-    raise SweepError(f"nothing is varied; write --set NAME=START:STOP:COUNT or NAME=VALUE,VALUE (parameters: {names})")
+        way = words.varied("NAME", "LO:HI")
+        raise SweepError(f"no parameter has limits to sample between; write {way} (parameters: {names})")
+    ways = words.varied("NAME", "START:STOP:COUNT"), words.varied("NAME", "VALUE,VALUE")
+    raise SweepError(f"nothing is varied; write {ways[0]} or {ways[1]} (parameters: {names})")
 
 
 def _require_values(declared: Declared, request: Request, varied: Mapping[str, Parameter], choice: Choice) -> None:
@@ -178,9 +193,8 @@ def _require_values(declared: Declared, request: Request, varied: Mapping[str, P
     missing = declared.required - _fixed_names(request) - set(varied)
     if missing and not choice.variants and request.variant is None:
         name = min(missing)
-        raise SweepError(
-            f"'{name}' has no default; vary it with --set {name}=…, or set it for all with -p {name}=VALUE"
-        )
+        ways = choice.words.varied(name, "…"), choice.words.fixed(name)
+        raise SweepError(f"'{name}' has no default; vary it with {ways[0]}, or set it for all with {ways[1]}")
 
 
 def _points(axes: Sequence[Axis], varied: Varied, choice: Choice) -> Points:
@@ -189,16 +203,17 @@ def _points(axes: Sequence[Axis], varied: Varied, choice: Choice) -> Points:
     return Samples(axes, varied.intervals, choice.sample, choice.seed)
 
 
-def _kept(where: str, request: Request, points: Points, checked: Callable[[int, int], None]) -> Sequence[int]:
-    """Return the indices of the points that fulfil a condition."""
-    condition = Condition(where, Path(request.spec), request.settings, request.columns)
+def _kept(choice: Choice, request: Request, points: Points, checked: Callable[[int, int], None]) -> Sequence[int]:
+    """Return the indices of the points that fulfil the condition."""
+    condition = Condition(choice.where or "", Path(request.spec), request.settings, request.columns, choice.words)
     kept = array("Q")
     for index in range(len(points)):
         if condition.holds(points[index]):
             kept.append(index)
         checked(index + 1, len(points))
     if not kept:
-        raise SweepError(f"--where '{where}' is true at no point, so there is no robot to compile")
+        what = f"{choice.words.option('where')} '{choice.where}'"
+        raise SweepError(f"{what} is true at no point, so there is no robot to compile")
     return kept
 
 

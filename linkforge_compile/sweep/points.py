@@ -90,9 +90,10 @@ def _draw(interval: Interval, random: Random) -> str:
     return f"{number_text(random.uniform(interval.low, interval.high))} {interval.unit}".strip()
 
 
-def _point(index: int, values: dict[str, str]) -> Point:
-    variant = values.pop(VARIANT, None)
-    return Point(index, values, variant)
+def _point(index: int, values: Mapping[str, str]) -> Point:
+    """Return a point; an empty text is an empty cell of a table, which leaves the default."""
+    filled = {name: text for name, text in values.items() if text}
+    return Point(index, filled, filled.pop(VARIANT, None))
 
 
 def _quoted(text: str) -> str:

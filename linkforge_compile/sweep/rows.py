@@ -36,6 +36,11 @@ COUNTS = ("robot_dof", "robot_links", "errors", "warnings")
 TEXTS = ("diagnostics", "digest")
 
 
+def reserved_columns() -> frozenset[str]:
+    """Return the names that a parameter's column cannot have."""
+    return frozenset(("index", "variant", *FIGURES, *COUNTS, *TEXTS))
+
+
 def figures_row(robot: Robot) -> Row:
     """Return the figures of a robot with every joint at 0, in the frame of its root.
 

@@ -50,7 +50,7 @@ def execute(
 ) -> Summary:
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
     files = collect_files(plan)
-    with _write_errors(store.folder):
+    with _write_errors(store.folder, "choose another folder"):
         done = store.begin(plan.manifest(files.bundle, packing), resume=resume)
     summary = Summary(plan.size)
     if not store.is_finished:
@@ -76,14 +76,12 @@ def execute(
 
 
 @contextmanager
-def _write_errors(folder: Path) -> Iterator[None]:
+def _write_errors(folder: Path, way_out: str = "once it can be written, --resume goes on") -> Iterator[None]:
     """Turn an error of the system, such as a full disk, into a SweepError."""
     try:
         yield
     except OSError as error:
-        raise SweepError(
-            f"cannot write to '{folder}': {error.strerror or error}; once it can be written, --resume goes on"
-        ) from error
+        raise SweepError(f"cannot write to '{folder}': {error.strerror or error}; {way_out}") from error
 
 
 def collect_files(plan: Plan) -> Files:

@@ -57,6 +57,8 @@ class Store:
         SweepError if the folder has a sweep that is not to be resumed, or another one than this.
         """
         file = self.folder / MANIFEST
+        if self.folder.exists() and not self.folder.is_dir():
+            raise SweepError(f"'{self.folder}' is a file; choose a folder for the robots and the table")
         if file.exists() and not (resume or self._has_robots):
             file.unlink()  # of a sweep that ended before its first chunk, such as one whose scheduler was not there
         if file.exists():
@@ -194,11 +196,6 @@ def schema_of(columns: Mapping[str, Parameter], *, has_variants: bool) -> Any:
     fields += [field(name, pa.int64()) for name in COUNTS]
     fields += [field(name, pa.string()) for name in TEXTS]
     return pa.schema(fields)
-
-
-def reserved_columns() -> frozenset[str]:
-    """Return the names that a parameter's column cannot have."""
-    return frozenset(("index", "variant", *FIGURES, *COUNTS, *TEXTS))
 
 
 def _of_one_type(values: Sequence[Cell]) -> Sequence[Cell]:

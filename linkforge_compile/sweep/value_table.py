@@ -16,40 +16,60 @@ from linkforge_compile.sweep.axes import VARIANT, Axis
 from linkforge_compile.sweep.cells import Cell, cells_of, value_text
 from linkforge_compile.sweep.declared import Declared, untyped, value_of
 from linkforge_compile.sweep.errors import SweepError
+from linkforge_compile.sweep.rows import reserved_columns
+from linkforge_compile.sweep.wording import Wording
 
 _MAX_FAULTS = 20
 """How many wrong values of a table are reported; the rest are likely of the same kind."""
 
 
-def read_values(path: Path, declared: Declared, sink: Diagnostics) -> tuple[Axis, Mapping[str, Parameter]]:
+def read_values(
+    path: Path, declared: Declared, sink: Diagnostics, words: Wording
+) -> tuple[Axis, Mapping[str, Parameter]]:
     """Return the rows of a table as one axis, and the parameters of its columns.
 
     The column `variant` selects variants, unless a parameter has that name. Values are texts as in `-p`, or the
-    numbers of a Parquet file in SI units. Unknown columns and wrong values are reported at their line.
+    numbers of a Parquet file in SI units; an empty cell leaves the default. Of the table of a sweep, only the columns
+    of parameters and variants count. Unknown columns and wrong values are reported at their line.
     """
-    rows = _parquet_rows(path) if path.suffix == ".parquet" else _csv_rows(path)
-    header = next(rows, [])
-    if not header:
-        raise SweepError(f"--values {path}: the file has no columns")
-    names = [_name_of(cell, declared, sink) for cell in header]
-    for at, cell in enumerate(header):
-        if cell.text in [one.text for one in header[:at]]:
-            sink.report(SET_TWICE.at(cell.span, name=cell.text, notes=()))
-    body = [row for row in rows if row]
-    if short := next((row for row in body if len(row) != len(header)), None):
-        raise SweepError(f"{short[0].span}: expected {len(header)} values, as the first line has, found {len(short)}")
-    if not body:
-        raise SweepError(f"--values {path}: the table has no rows")
+    option = words.option("values")
+    header, body = _read(path, option)
+    is_own = reserved_columns() - {"variant"} <= {cell.text for cell in header}
+    known = {*declared.parameters, *(["variant"] if declared.variants else [])}
+    chosen = [at for at, cell in enumerate(header) if not is_own or cell.text in known]
+    if not chosen:
+        raise SweepError(f"{option} {path}: the table of a sweep, whose parameters are not those of this spec")
+    names = tuple(_name_of(header[at], declared, sink) for at in chosen)
+    for number, at in enumerate(chosen):
+        if header[at].text in [header[one].text for one in chosen[:number]]:
+            sink.report(SET_TWICE.at(header[at].span, name=header[at].text, notes=()))
     parameters: dict[str, Parameter] = {}
-    for at, name in enumerate(names):
+    for at, name in zip(chosen, names, strict=True):
+        column = [row[at] for row in body if row[at].text]
         if name in declared.parameters:
-            column = [row[at] for row in body]
             texts = [cell.text for cell in column]
             parameters[name] = declared.parameters[name] or untyped(name, texts, header[at].span)
             _check(column, parameters[name], sink)
         elif name == VARIANT:
-            _check_variants([row[at] for row in body], declared)
-    return Axis(tuple(names), [tuple(cell.text for cell in row) for row in body]), parameters
+            _check_variants(column, declared)
+    return Axis(names, [tuple(row[at].text for at in chosen) for row in body]), parameters
+
+
+def _read(path: Path, option: str) -> tuple[list[Cell], list[list[Cell]]]:
+    """Return the names of the columns and the rows; SweepError for a file that is not such a table."""
+    rows = _parquet_rows(path, option) if path.suffix == ".parquet" else _csv_rows(path, option)
+    header = next(rows, [])
+    if not header:
+        raise SweepError(f"{option} {path}: the file has no columns")
+    if len(header) == 1 and (found := next((one for one in (";", "\t") if one in header[0].text), None)):
+        shown = "tabs" if found == "\t" else f"'{found}'"
+        raise SweepError(f"{option} {path}: the columns are separated by {shown}; write commas, and decimal points")
+    body = [row for row in rows if row]
+    if short := next((row for row in body if len(row) != len(header)), None):
+        raise SweepError(f"{short[0].span}: expected {len(header)} values, as the first line has, found {len(short)}")
+    if not body:
+        raise SweepError(f"{option} {path}: the table has no rows")
+    return header, body
 
 
 def _check(column: list[Cell], parameter: Parameter, sink: Diagnostics) -> None:
@@ -74,14 +94,14 @@ def _name_of(cell: Cell, declared: Declared, sink: Diagnostics) -> str:
     return cell.text
 
 
-def _csv_rows(path: Path) -> Iterator[list[Cell]]:
+def _csv_rows(path: Path, option: str) -> Iterator[list[Cell]]:
     """Yield the cells of each row; a mark of the byte order, which spreadsheets write, is none of the first cell."""
     try:
         text = text_of(path.read_bytes()).removeprefix("\ufeff")
     except OSError as error:
-        raise SweepError(f"--values {path}: {error.strerror}") from error
+        raise SweepError(f"{option} {path}: {error.strerror}") from error
     except UnreadableError as error:
-        raise SweepError(f"--values {path} cannot be read: {error}") from error
+        raise SweepError(f"{option} {path} cannot be read: {error}") from error
     file, lines = SourceFile(str(path), text, path), list(io.StringIO(text, newline=""))
     reader, line = csv.reader(lines), 1
     try:
@@ -92,19 +112,19 @@ def _csv_rows(path: Path) -> Iterator[list[Cell]]:
         raise SweepError(f"{path}:{reader.line_num}: cannot be read as CSV: {error}") from error
 
 
-def _parquet_rows(path: Path) -> Iterator[list[Cell]]:
+def _parquet_rows(path: Path, option: str) -> Iterator[list[Cell]]:
     """Yield the cells of each row; line 1 is the names of the columns, as in a CSV."""
     from linkforge_compile.sweep.arrow import parquet
 
     try:
         table = parquet().read_table(path)
     except (OSError, ValueError) as error:  # pyarrow's errors are ValueErrors
-        raise SweepError(f"--values {path}: {error}") from error
+        raise SweepError(f"{option} {path}: {error}") from error
     columns = [column.to_pylist() for column in table.columns]
-    for name, column in zip(table.column_names, columns, strict=True):
-        if None in column:
-            raise SweepError(f"{path}:{column.index(None) + 2}: '{name}' has no value (null); each row needs one")
-    shown = [table.column_names, *(list(map(value_text, row)) for row in zip(*columns, strict=True))]
+    shown = [
+        table.column_names,
+        *(["" if value is None else value_text(value) for value in row] for row in zip(*columns, strict=True)),
+    ]
     file = SourceFile(str(path), "\n".join(",".join(row) for row in shown), path)
     for line, row in enumerate(shown, 1):
         yield cells_of(row, ",".join(row), file, line, 1)

@@ -41,9 +41,7 @@ def test_a_terminal_has_a_bar_that_disappears(clock: list[float], monkeypatch: p
 
 
 def test_a_log_has_a_line_every_two_seconds(clock: list[float], monkeypatch: pytest.MonkeyPatch):
-    assert show(io.StringIO(), clock, monkeypatch) == (
-        "200 of 1,000 samples\n400 of 1,000 samples, 6 s left\n"
-    )
+    assert show(io.StringIO(), clock, monkeypatch) == ("200 of 1,000 samples\n400 of 1,000 samples, 6 s left\n")
 
 
 def test_the_start_of_processes_does_not_count(clock: list[float], monkeypatch: pytest.MonkeyPatch):

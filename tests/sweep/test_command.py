@@ -2,16 +2,22 @@
 
 import json
 import math
+import os
 import re
 import shutil
 import tarfile
 import zipfile
+from errno import ENOSPC
 from pathlib import Path
 
 import pyarrow.parquet
 import pytest
 
 from linkforge_compile import compile_file, render_urdf
+from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.plan import Plan
+from linkforge_compile.sweep.session import Summary
+from linkforge_compile.sweep.store import Chunk, Store
 from tests.cli.in_process import linkforge
 from tests.sweep.specs import ARM, write_arm
 
@@ -188,8 +194,6 @@ def test_a_file_that_only_a_later_robot_reads_is_compared(folder: Path, monkeypa
 
 def interrupt_after(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let Ctrl-C come when so many chunks are written."""
-    from linkforge_compile.sweep.store import Store
-
     add, added = Store.add, []
 
     def interrupted(self: Store, chunk, made) -> None:
@@ -301,11 +305,50 @@ def test_numbers_of_the_table_are_finite_or_missing(folder: Path):
     assert all(math.isfinite(value) for row in rows(folder) for value in row.values() if isinstance(value, float))
 
 
-def test_a_folder_that_cannot_be_written_is_an_error(folder: Path):
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        ("file", "'file' is a file; choose a folder for the robots and the table"),
+        ("file/out", "cannot write to 'file/out': Not a directory; choose another folder"),
+    ],
+)
+def test_a_folder_that_cannot_be_written_is_an_error(folder: Path, output: str, message: str):
     (folder / "file").write_text("")
-    done = linkforge("sweep", "arm.robot.yaml", "-o", "file/out", "--jobs", "1", "--set", "reach=1,2", cwd=folder)
-    assert done.returncode == 2
-    assert "cannot write to 'file/out': Not a directory; once it can be written, --resume goes on" in done.stderr
+    done = linkforge("sweep", "arm.robot.yaml", "-o", output, "--jobs", "1", "--set", "reach=1,2", cwd=folder)
+    assert (done.returncode, done.stderr) == (2, f"linkforge sweep: {message}\n")
+
+
+def test_a_full_disk_is_an_error(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    def full(self: Store, chunk: Chunk, made: object) -> None:
+        raise OSError(ENOSPC, os.strerror(ENOSPC))
+
+    monkeypatch.setattr(Store, "add", full)
+    message = "cannot write to 'out': No space left on device; once it can be written, --resume goes on"
+    assert sweep(folder, "--set", "reach=1,2") == (2, f"linkforge sweep: {message}\n")
+
+
+@pytest.mark.parametrize(("robots", "jobs"), [(99, 1), (100, 7)])
+def test_few_robots_need_no_other_process(folder: Path, monkeypatch: pytest.MonkeyPatch, robots: int, jobs: int):
+    places = []
+
+    def execute(plan: Plan, store: Store, place: Place, packing: str, **_more: object) -> Summary:
+        places.append(place)
+        return Summary(plan.size)
+
+    monkeypatch.setattr("linkforge_compile.sweep.session.execute", execute)
+    monkeypatch.setattr("os.cpu_count", lambda: 7)
+    linkforge("sweep", "arm.robot.yaml", "-o", "out", "--sample", str(robots), cwd=folder)
+    assert places == [Place(jobs)]
+
+
+def test_the_table_of_a_sweep_is_a_table_of_values(folder: Path):
+    """Its figures and diagnostics vary nothing."""
+    sweep(folder, "--sample", "5", "--seed", "5", "--variant", "sim", "--variant", "real", "--pack", "tar")
+    first = rows(folder)
+    shutil.move(folder / "out/table.parquet", folder / "points.parquet")
+    shutil.rmtree(folder / "out")
+    assert sweep(folder, "--values", "points.parquet")[0] == 0
+    assert rows(folder) == first
 
 
 def test_a_long_sweep_shows_its_progress(folder: Path, monkeypatch: pytest.MonkeyPatch):

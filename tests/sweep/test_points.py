@@ -1,14 +1,16 @@
 """What the options of a sweep vary, without compiling anything."""
 
+import re
 from pathlib import Path
 
 import pyarrow
 import pyarrow.parquet
 import pytest
 
-from linkforge_compile.sweep import _set_text
+from linkforge_compile.sweep import _set_text, run
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
+from linkforge_compile.sweep.rows import reserved_columns
 from linkforge_compile.sweep.store import Chunk
 from linkforge_compile.sweep.work import Request, values_of
 from tests.sweep.specs import write_arm
@@ -117,8 +119,30 @@ def test_a_parameter_is_not_varied_twice_or_fixed_as_well(tmp_path: Path):
     assert caught.value.diagnostics[0].message == "parameter 'reach' is set twice"
     with pytest.raises(SweepError, match="no parameter named 'raech'; did you mean 'reach'"):
         plan(tmp_path, "reach=1m,2m", fixed=("raech=1m",))
-    with pytest.raises(SweepError, match="'reach' is fixed by -p and varied as well"):
+    with pytest.raises(SweepError, match="'reach' is varied, and set for all robots with -p reach=VALUE"):
         plan(tmp_path, "reach=1m,2m", fixed=("reach=1m",))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"grid": {"reach": [9]}}, "<grid>:1:7: error: parameter 'reach' must be at most 2 m, found '9 m'"),
+        (
+            {"grid": {"reach": "0.4m:1m"}},
+            "found 'reach=0.4m:1m'; add a COUNT, or sample=N",
+        ),
+        ({"grid": {"reach": []}}, "grid takes values by parameter, such as {'reach': '0.4m:1m:20'}"),
+        ({}, "nothing is varied; write grid={'NAME': 'START:STOP:COUNT'}"),
+        ({"grid": {"reach": "0.2:1:2000000"}}, "allow it with max_points=2000000"),
+        ({"grid": {"reach": [1]}, "where": "$(raech > 1)"}, "<where>:1:3: error: no parameter"),
+        ({"grid": {"reach": [1]}, "parameters": {"raech": 1}}, "<parameters>:1:1: error: no parameter named 'raech'"),
+        ({"values": "none.csv"}, "values none.csv: No such file or directory"),
+    ],
+)
+def test_in_python_messages_name_the_arguments(tmp_path: Path, arguments: dict[str, object], message: str):
+    with pytest.raises(SweepError, match=re.escape(message)) as caught:
+        run(write_arm(tmp_path), **arguments)
+    assert "--" not in str(caught.value)
 
 
 # Samples
@@ -188,11 +212,35 @@ def test_a_csv_of_a_spreadsheet(tmp_path: Path):
     assert (texts(read, "title"), texts(read, "offset")) == (["a,b", "c\nd"], ["[0, 0, 1]", "[0, 1, 0]"])
 
 
-def test_a_parquet_with_a_missing_value_is_refused(tmp_path: Path):
-    table = tmp_path / "points.parquet"
-    pyarrow.parquet.write_table(pyarrow.table({"title": ["a", None]}), table)
-    with pytest.raises(SweepError, match=r"points\.parquet:3: 'title' has no value \(null\)"):
+def test_an_empty_cell_leaves_the_default(tmp_path: Path):
+    """In a CSV and, as null, in Parquet; without a variant, the robot has none."""
+    table = tmp_path / "points.csv"
+    table.write_text("reach,tool,variant\n0.5m,,sim\n,hook,\n")
+    rows = [{"reach": 0.5}, {"tool": "hook"}]
+    read = plan(tmp_path, values=table)
+    assert [values_of(read.request, read.points[i]) for i in (0, 1)] == rows
+    assert [read.points[i].variant for i in (0, 1)] == ["sim", None]
+    columns = {"reach": [0.5, None], "tool": [None, "hook"]}
+    pyarrow.parquet.write_table(pyarrow.table(columns), tmp_path / "points.parquet")
+    read = plan(tmp_path, values=tmp_path / "points.parquet")
+    assert [values_of(read.request, read.points[i]) for i in (0, 1)] == rows
+
+
+@pytest.mark.parametrize(("mark", "shown"), [(";", "';'"), ("\t", "tabs")])
+def test_columns_without_commas_are_refused(tmp_path: Path, mark: str, shown: str):
+    table = tmp_path / "points.csv"
+    table.write_text(f"reach{mark}tool\n0,5{mark}hand\n")
+    with pytest.raises(SweepError, match=rf"points\.csv: the columns are separated by {shown}; write commas"):
         plan(tmp_path, values=table)
+
+
+def test_the_table_of_another_sweep_is_refused(tmp_path: Path):
+    names = sorted({*reserved_columns(), "width"})
+    (tmp_path / "points.csv").write_text(",".join(names) + "\n" + ",".join("1" for _ in names) + "\n")
+    spec = tmp_path / "bare.robot.yaml"
+    spec.write_text("linkforge: 1\nname: bare\nparameters: {reach: 1 m}\nlinks: {base: {}}\n")
+    with pytest.raises(SweepError, match="the table of a sweep, whose parameters are not those of this spec"):
+        plan_of(Request(str(spec), "bare"), Choice(values=tmp_path / "points.csv"))
 
 
 def test_a_parquet_has_numbers_in_si(tmp_path: Path):

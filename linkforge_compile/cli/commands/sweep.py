@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 MAX_JOBS = 1024
 
+FEW = 100
+"""Sweeps of fewer robots are done before the processes of Dask have started."""
+
 MOST_GROUPS = 20
 """How many messages the summary shows."""
 
@@ -100,14 +103,22 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
     packing = group.add_mutually_exclusive_group()
     packing.add_argument("--pack", choices=("tar", "zip"), help="an archive for each chunk instead of a folder a robot")
     packing.add_argument("--table-only", action="store_true", help="write the table, and no robots")
-    group.add_argument("--chunk", metavar="N", type=_positive, help="how many robots are sent and written at once")
+    group.add_argument(
+        "--chunk",
+        metavar="N",
+        type=_positive,
+        help="how many robots are sent and written at once (default: a 32nd of all, at most 100)",
+    )
     group.add_argument("--resume", action="store_true", help="go on with an interrupted sweep in the same folder")
 
 
 def _add_place_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("processes")
     group.add_argument(
-        "--jobs", metavar="N", type=_jobs, help="how many processes (default: one a processor); 1 needs no Dask"
+        "--jobs",
+        metavar="N",
+        type=_jobs,
+        help=f"how many processes; 1 needs no Dask (default: one a processor, 1 for fewer than {FEW} robots)",
     )
     group.add_argument(
         "--scheduler", metavar="ADDRESS", help="the scheduler of a Dask cluster, such as tls://head:8786"
@@ -140,13 +151,13 @@ def _run(arguments: argparse.Namespace) -> int:
     packing = "none" if arguments.table_only else arguments.pack or "folders"
     folder = Path(arguments.output)
     store = Store(folder, packing, plan.request.columns, has_variants=plan.has_variants)
-    bar, begin = ProgressBar(plan.size, "robots", arguments), monotonic()
+    bar, begin = ProgressBar(plan.size, "robot" if plan.size == 1 else "robots", arguments), monotonic()
 
     def progress(done: int, failed: int) -> None:
         bar.show(done, f"{failed:,} with errors" if failed else "")
 
     try:
-        summary = execute(plan, store, _place_of(arguments), packing, resume=arguments.resume, progress=progress)
+        summary = execute(plan, store, _place_of(plan, arguments), packing, resume=arguments.resume, progress=progress)
     except KeyboardInterrupt:
         bar.close()
         print_line(f"linkforge sweep: interrupted; the same command with --resume goes on in '{folder}'")
@@ -225,7 +236,7 @@ def _choice_of(arguments: argparse.Namespace) -> Choice:
     )
 
 
-def _place_of(arguments: argparse.Namespace) -> Place:
+def _place_of(plan: Plan, arguments: argparse.Namespace) -> Place:
     from linkforge_compile.sweep.place import Place
 
     given = {
@@ -238,7 +249,8 @@ def _place_of(arguments: argparse.Namespace) -> Place:
         raise UsageError("--tls-ca, --tls-cert and --tls-key are for --scheduler; leave them out")
     if arguments.scheduler and arguments.jobs:
         raise UsageError("--jobs is for processes of this machine; those of --scheduler are started elsewhere")
-    return Place(arguments.jobs or os.cpu_count() or 1, arguments.scheduler, security)
+    jobs = 1 if plan.size < FEW else os.cpu_count() or 1
+    return Place(arguments.jobs or jobs, arguments.scheduler, security)
 
 
 def _print_summary(plan: Plan, summary: Summary, seconds: float, arguments: argparse.Namespace) -> None:
