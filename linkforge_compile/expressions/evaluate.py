@@ -209,7 +209,7 @@ class _Evaluation:
         assert isinstance(text, str), "the functions of the file accept only text"
         function = self._scope.function(name.id)
         if function is None:
-            self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id))
+            self._sink.report(codes.UNKNOWN_FUNCTION.at(self._expression.span(name), name=name.id, hint=""))
             raise _FaultError
         value = function(text, self._expression.span(argument), self._sink)
         if isinstance(value, Fault):

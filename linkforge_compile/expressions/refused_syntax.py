@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.expressions.operators import ARITHMETIC, COMPARISONS, MAX_INTEGER_BITS
 from linkforge_compile.expressions.types import Expression
@@ -165,14 +166,25 @@ def _attribute_fault(function: ast.expr, expression: Expression) -> Diagnostic:
     return fault.replacing(written, name, is_safe=True, is_whole=True) if is_ours else fault
 
 
+def _unknown_function(call: ast.Call, name: str, expression: Expression) -> Diagnostic:
+    span, fix = expression.span(call.func), None
+    if name != "range" or len(call.args) != 1:
+        return codes.UNKNOWN_FUNCTION.at(span, name=name, hint="", near=SIGNATURES)
+    count = expression.written(call.args[0])
+    if call is expression.tree:
+        fix = Replacement("", count).within(expression.span(call))
+    return codes.UNKNOWN_FUNCTION.at(
+        span, name=name, hint=f"; 'for' counts to a number: write 'for: {{i: $({count})}}'"
+    ).with_fix(fix)
+
+
 def _call_fault(call: ast.Call, expression: Expression) -> Diagnostic | None:
-    span = expression.span(call.func)
     if not isinstance(call.func, ast.Name):
         return _attribute_fault(call.func, expression)
     name = call.func.id
     function = SIGNATURES.get(name)
     if function is None:
-        return codes.UNKNOWN_FUNCTION.at(span, name=name, near=SIGNATURES)
+        return _unknown_function(call, name, expression)
     if call.keywords:
         instead = f"arguments are given in order: {function.signature}"
         return codes.NOT_IN_EXPRESSIONS.at(

@@ -1,5 +1,6 @@
 """The examples of the manual: wrong ones are reported with the code of the page, right ones compile."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from linkforge_compile.cli.main import main
 from linkforge_compile.cli.reports import heading
 from linkforge_compile.diagnostics.codes import REGISTER
+from linkforge_compile.expressions.functions import SIGNATURES
 from linkforge_compile.resources import manual_folder
 from tests.diagnostics.manual_page import Example, Page
 
@@ -49,3 +51,9 @@ def test_a_wrong_example_is_reported_and_the_right_one_is_not(
 def test_every_code_has_a_page_and_every_page_a_code():
     """Write docs/diagnostics/CODE.md, as docs/diagnostics/README.md describes."""
     assert {path.stem for path in PAGES} == set(REGISTER)
+
+
+def test_the_page_of_an_unknown_function_lists_all_functions():
+    page = (manual_folder() / "LF3108.md").read_text("utf-8")
+    listed = [names.split() for names in re.findall(r"`([a-z0-9 \n]+)`", page)]
+    assert {name for names in listed if len(names) > 1 for name in names} == {*SIGNATURES}

@@ -16,7 +16,7 @@ EMPTY_EXPRESSION = Code("LF3104", _E, "expected an expression between '$(' and '
 EXPRESSION_TOO_LARGE = Code("LF3105", _E, "the expression {fault}; move parts of it into 'variables'")
 NOT_IN_EXPRESSIONS = Code("LF3106", _E, "an expression cannot {use}; {instead}")
 UNKNOWN_NAME = Code("LF3107", _E, "no parameter, variable or 'for' name '{name}' here{hint}", is_unknown_name=True)
-UNKNOWN_FUNCTION = Code("LF3108", _E, "no function named '{name}'")
+UNKNOWN_FUNCTION = Code("LF3108", _E, "no function named '{name}'{hint}")
 FUNCTION_NOT_CALLED = Code("LF3110", _E, "'{function}' is a function; write {signature}")
 WRONG_ARGUMENT_COUNT = Code("LF3111", _E, "expected {signature}, found {found}")
 
