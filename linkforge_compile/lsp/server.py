@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import logging
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -91,6 +92,8 @@ class SpecServer(LanguageServer):
             await asyncio.gather(*map(self._analysed, pending))
         if generation == self.specs.generation:
             self._publish()
+            # An analysis leaves cycles, which the collector would leave for many more, and memory grow meanwhile.
+            gc.collect()
 
     def _analysed(self, path: Path) -> asyncio.Future[None]:
         """Return what ends when a spec is analysed; a request that is cancelled does not cancel it."""

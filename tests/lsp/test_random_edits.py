@@ -13,7 +13,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 EDITS = 1_000
 LOOK_EACH = 20
-GROWTH = 40
+GROWTH = 10
 """What the server may use at the end beyond what it used after a third of the edits [MB]."""
 
 

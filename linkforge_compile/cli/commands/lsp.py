@@ -9,6 +9,7 @@ from linkforge_compile.cli import OK, UsageError
 
 if TYPE_CHECKING:
     import argparse
+import gc
 
 _EXAMPLES = """\
 Editors start it; docs/editors.md has the set-up of each. It talks over standard input and output, or to the one client
@@ -33,6 +34,7 @@ def run(arguments: argparse.Namespace) -> NoReturn:
         if error.name not in {"pygls", "lsprotocol"}:
             raise
         raise UsageError("the language server needs pygls; run: pip install 'linkforge-compile[lsp]'") from None
+    gc.freeze()  # the server collects garbage after each edit, and what is imported is none
     if arguments.port is not None:
         make_server().start_tcp("127.0.0.1", arguments.port)
     else:
