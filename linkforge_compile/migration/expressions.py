@@ -196,6 +196,10 @@ class _Translator:
             return as_expression(joined(as_parts(left), as_parts(right)))
         if TEXT in kinds:
             raise self.refuse("arithmetic with a text")
+        sign = literal_of(left)
+        if isinstance(node.op, ast.Mult) and kinds[1] == NUMBER and type(sign) is int and abs(sign) == 1:
+            # A macro multiplies by 1 or -1 for its side.
+            return right if sign == 1 else folded(ast.UnaryOp(op=ast.USub(), operand=right))
         return folded(ast.BinOp(left=left, op=node.op, right=right))
 
     def _comparison(self, node: ast.Compare) -> ast.expr:

@@ -103,7 +103,8 @@ class FileMaker:
         of_uses = uses.sections(self._values, where)
         self._comments |= uses.comments
         made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
-        raw, left_out, used = tuple(raw_in(made)), tuple(self._writer.left_out), dict(self._values.used)
+        raw = tuple(raw_in(made.without("parameters", "variables")))
+        left_out, used = tuple(self._writer.left_out), dict(self._values.used)
         return Spec(head, made, self._names, used, raw, left_out, self._comments, self._endings)
 
     def _read(self, text: str, outside: frozenset[str]) -> Imported:

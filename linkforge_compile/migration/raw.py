@@ -50,7 +50,7 @@ def raw_in(node: YamlNode) -> Iterator[str]:
         for entry in node:
             if entry.name == "extra":
                 yield from _tags_in(entry.value)
-            else:
+            elif entry.name != "with":
                 yield from raw_in(entry.value)
     elif isinstance(node, YamlList):
         for item in node:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from linkforge_compile.importers.origin import relative_path
@@ -124,8 +125,10 @@ class Uses:
         if self._mount is not None:
             made["mount"] = YamlMap({self._mount.name: self._mount}, where)
         entries: dict[str, YamlNode | None] = {}
+        short = Counter(_words_of(use)[:1] for use, _ in self._uses)
         for number, (use, guards) in enumerate(self._uses):
-            name = self._entry_name(use, entries)
+            words = _words_of(use)
+            name = self._entry_name(use, words[:1] if short[words[:1]] == 1 else words, entries)
             carried = self._carried.get(f"{_CARRIER}{number}")
             own = self._kept(use, values, where) if isinstance(use, Kept) else self._own(use, number, values, where)
             entries[name] = self._entry(own, guards, carried, where)
@@ -135,10 +138,9 @@ class Uses:
             self.comments = {entry.key: use.comment for entry, (use, _) in uses if isinstance(use, Use) and use.comment}
         return made
 
-    def _entry_name(self, use: Use | Kept, taken: Mapping[str, object]) -> str:
-        """Return the name of an entry: that in its arguments if there is one, else that of the macro."""
-        words = [use.arguments.get(key) for key in ("name", "prefix", "link_name", "side", "suffix")]
-        text = next((str(one[0]) for one in words if one and is_literal(one) and str(one[0]).strip()), "")
+    def _entry_name(self, use: Use | Kept, words: Sequence[str], taken: Mapping[str, object]) -> str:
+        """Return the name of an entry: words of its arguments if there are any, else that of the macro."""
+        text = "_".join(words)
         own = use.name if isinstance(use, Kept) else use.module.name
         base = re.sub(r"\W+", "_", text).strip("_") or own
         if text and base != own and len(base) < 3:
@@ -209,6 +211,13 @@ def _close(outer: Symbol, symbol: Symbol) -> None:
     words = dict.fromkeys([*outer.choices, *symbol.choices])
     if outer.role == "parameter" and (outer.value is None or "".join(map(str, outer.value)) in words):
         outer.choices, outer.is_closed = words, True
+
+
+def _words_of(use: Use | Kept) -> tuple[str, ...]:
+    """Return the arguments that tell one use from another."""
+    values = [use.arguments.get(key) for key in ("name", "prefix", "link_name", "side", "suffix")]
+    texts = [str(one[0]).strip(" _") for one in values if one and is_literal(one)]
+    return tuple(text for text in texts if text)
 
 
 def _same_value(parts: Parts, symbol: Symbol) -> bool:

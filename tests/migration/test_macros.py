@@ -232,3 +232,22 @@ def test_a_name_that_a_prefix_would_change_fixes_only_the_prefix(tmp_path: Path)
     module = migrated(tmp_path, text).files["rover.robot.yaml"]
     assert "parameters:\n  antenna: true\n  height: {type: length, default: 0.1}\n" in module
     assert "mimic: {joint: left_joint}" in module
+
+
+def test_entries_are_named_by_all_words_of_a_call_where_one_is_not_enough(tmp_path: Path):
+    text = """
+<link name="base"/>
+<xacro:macro name="wheel" params="prefix suffix reflect x">
+  <link name="${prefix}_${suffix}"/>
+  <joint name="${prefix}_${suffix}_joint" type="fixed">
+    <parent link="base"/><child link="${prefix}_${suffix}"/><origin xyz="${x} ${reflect * width / 2} 0"/>
+  </joint>
+</xacro:macro>
+<xacro:property name="width" value="0.4"/>
+<xacro:wheel prefix="front" suffix="left" reflect="1" x="0.2"/>
+<xacro:wheel prefix="front" suffix="right" reflect="-1" x="0.2"/>
+<xacro:wheel prefix="rear" suffix="left" reflect="1" x="-0.2"/>
+"""
+    made = migrated(tmp_path, text)
+    assert "{entry: front_left, name_prefix: front, suffix: left, origin: [0.2, $(width / 2), 0]}" in made.robot
+    assert "{entry: front_right, name_prefix: front, suffix: right, origin: [0.2, $(-width / 2), 0]}" in made.robot
