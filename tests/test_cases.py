@@ -52,6 +52,7 @@ WITHOUT_A_CASE = {
     "LF8049": "migration/test_proof.py",
     "LF8050": "migration/test_proof.py",
     "LF8051": "migration/test_bounds.py",
+    "LF8052": "migration/test_robot.py",
     "LF7104": "cli/test_compile.py",
     "LF7201": "formats/test_user_templates.py",
     "LF7202": "formats/test_user_templates.py",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import copy
 import math
+import os
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
@@ -115,6 +116,8 @@ class Evaluator(ABC):
     deadline: Deadline = field(default_factory=Deadline)
     robot: FileDraft = field(default_factory=lambda: FileDraft("robot"))
     arguments: dict[str, Symbol] = field(default_factory=dict)
+    environment: dict[str, str] = field(default_factory=dict)
+    """The values of the environment that `$(optenv)` gives."""
     decided: int = 0
     """How many conditions have the same outcome for all arguments."""
 
@@ -202,8 +205,9 @@ class Evaluator(ABC):
         if kind == "find":
             return (call("path", as_expression(joined(("package://",), name))),)
         if kind == "optenv":
-            # A spec does not read the environment, so the variable counts as not set.
-            return joined((rest.strip().partition(" ")[2].strip(),))
+            variable, *default = self.path_text(name).split()
+            self.environment[variable] = os.environ.get(variable, " ".join(default))
+            return joined((self.environment[variable],))
         raise CannotTranslateError(f"'$({text})'")
 
     def _data(self, parts: Parts, context: Context) -> ast.expr:

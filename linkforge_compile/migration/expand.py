@@ -127,7 +127,7 @@ class Expander(Evaluator):
     def _include(self, element: XmlElement, context: Context) -> list[Content]:
         path = self.path_text(self.text(element.get("filename") or "", context))
         space = element.get("ns")
-        is_optional = (element.get("optional") or "").lower() in ("true", "1")
+        is_optional = self._flag(element.get("optional") or "false", context)
         macros, symbols = context.macros, context.symbols
         if space:
             name = str(constant_of(as_expression(self.text(space, context))))
@@ -157,7 +157,7 @@ class Expander(Evaluator):
             table = context.symbols.top
         elif scope == "parent":
             table = context.symbols.caller or table
-        if element.get("remove") in ("true", "1", "True"):
+        if self._flag(element.get("remove") or "false", context):
             for scope_around in context.symbols.chain():
                 scope_around.entries.pop(name, None)
             return []
@@ -170,7 +170,7 @@ class Expander(Evaluator):
             table.set(f"**{name}", Block(element, folder=context.folder))
             return []
         entry = Lazy(text, context.folder, comment, (element.file.name, element.begin))
-        if scope or element.get("lazy_eval") in ("false", "0", "False"):
+        if scope or not self._flag(element.get("lazy_eval") or "true", context):
             node = value_of(self.text(text, context))
             file = table.file
             made = self.variable(name, node, file, comment, entry.place) if file else node
@@ -179,6 +179,10 @@ class Expander(Evaluator):
             table.set(name, entry)
         self._documented = entry
         return []
+
+    def _flag(self, text: str, context: Context) -> bool:
+        """Return an attribute of an instruction of xacro that is true or false."""
+        return bool(constant_of(as_condition(value_of(self.text(text, context)), text)))
 
     def _macro(self, element: XmlElement, context: Context, comment: str) -> None:
         from xacro import parse_macro_arg

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -10,6 +11,7 @@ from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     ELEMENT_LEFT_OUT,
+    ENVIRONMENT_READ,
     MACRO_IN_PLACE,
     MACRO_KEPT,
     MIGRATION_DIFFERS,
@@ -150,6 +152,12 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         yield ARGUMENT_PINNED.at(
             symbol.where, name=name, value=value.lower() if isinstance(symbol.constant, bool) else value, notes=notes
         )
+
+    elements = [one for document in migration.expander.sources.documents.values() for one in document.root.walk()]
+    for name, value in migration.expander.environment.items():
+        reads = re.compile(rf"\$\(optenv\s+{re.escape(name)}\b")
+        users = [one.span for one in elements if reads.search(one.raw)]
+        yield ENVIRONMENT_READ.at(users[-1] if users else None, name=name, value=value)  # the inner element
 
 
 def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Diagnostic]:

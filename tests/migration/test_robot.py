@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import pytest
+
+from linkforge_compile import compile_text
 from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.migration.prove import Migrator
@@ -270,3 +273,29 @@ def test_a_word_that_chooses_the_hardware_has_only_the_values_that_do(tmp_path: 
     assert declared in made.files["arm.robot.yaml"]
     assert "extra" not in made.files["arm.robot.yaml"]
     assert len(made.proved.comparisons) == 2
+
+
+def test_the_environment_is_read_once_and_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    text = '<link name="base"/><gazebo><serial>$(optenv  ROBOT_SERIAL  no serial)</serial></gazebo>'
+    monkeypatch.delenv("ROBOT_SERIAL", raising=False)
+    made = migrated(tmp_path, text)
+    assert "serial: no serial" in made.robot
+    (note,) = made.proved.diagnostics
+    assert (note.code.id, note.span and note.span.line) == ("LF8052", 2)
+    monkeypatch.setenv("ROBOT_SERIAL", "A7")
+    assert "serial: A7" in migrated(tmp_path, text).robot
+
+
+@pytest.mark.parametrize("flag", ["true", "True", "1", "${1 == 1}"])
+def test_flags_of_instructions_are_read_as_xacro_reads_them(flag: str, tmp_path: Path):
+    text = f"""
+<xacro:property name="a" value="1"/>
+<xacro:property name="b" value="${{a}}" lazy_eval="{flag}"/>
+<xacro:property name="c" value="1"/>
+<xacro:property name="c" remove="{flag}"/>
+<xacro:property name="c" default="3"/>
+<xacro:property name="a" value="2"/>
+<link name="base"><collision><geometry><box size="${{a}} ${{b}} ${{c}}"/></geometry></collision></link>"""
+    made = migrated(tmp_path, text)
+    box = compile_text(made.robot).result().links["base"].collisions[0].geometry
+    assert (box.size.x, box.size.y, box.size.z) == (2, 2, 3)

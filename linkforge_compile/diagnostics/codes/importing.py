@@ -120,6 +120,12 @@ PARAMETER_GONE = Code(
     _E,
     "'{spec}' has no parameter '{name}', which is the argument '{argument}' of the xacro; write it, or migrate again",
 )
+ENVIRONMENT_READ = Code(
+    "LF8052",
+    _W,
+    "the environment variable {name} is '{value}' in the specs, which do not read the environment; write an "
+    "<xacro:arg> in its place to have a parameter",
+)
 MIGRATION_TOO_LONG = Code("LF8051", _E, "{what} was not finished in {seconds} s; --seconds gives it more time")
 
 # LF813x: which file goes where
