@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -18,6 +19,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
+from typing import NamedTuple
 
 from environment import Environment, make_environment
 
@@ -102,23 +104,37 @@ def compare_on_one_core(environment: Environment, folder: Path, options: argpars
         yield f"core    {name:<24} {cost}; a sweep takes {ratio:.2f} times that"
 
 
+class Run(NamedTuple):
+    """What a run of the command took."""
+
+    wall: float
+    """[s]"""
+    processor: float
+    """Of all its processes [s]."""
+    client: float
+    """Peak memory of the command [MB]."""
+    other: float
+    """Peak memory of its largest other process [MB]."""
+
+
 def compare_cores(environment: Environment, folder: Path, options: argparse.Namespace) -> Iterator[str]:
     """Yield how much faster two processes are than one, without the start of the processes."""
     _, spec = make_arm(environment, folder)
-    walls: dict[int, list[float]] = {1: [], 2: []}
+    # The same cluster with another number of robots; a difference of two sizes leaves the start out.
+    sizes, robots = (6 * options.robots, options.robots), 5 * options.robots
+    pairs: dict[int, list[list[Run]]] = {1: [], 2: []}
     for _ in range(options.rounds):
-        for jobs, taken in walls.items():
-            # The same cluster with another number of workers; a difference of two sizes leaves the start out.
-            long, short = (
-                run_sweep(environment, folder, spec, f"stiffness=10:30:{size}", jobs)[0]
-                for size in (6 * options.robots, options.robots)
-            )
-            taken.append(long - short)
-    speedup = median(walls[1]) / median(walls[2])
-    robots = 5 * options.robots
-    rates = [robots / median(walls[jobs]) for jobs in (1, 2)]
-    rate = f"{rates[0]:.1f} robots a second in one process, {rates[1]:.1f} in two"
-    yield f"cores   {rate}: {speedup:.2f} times (at least 1.8)"
+        for jobs, measured in pairs.items():
+            measured.append([run_sweep(environment, folder, spec, f"stiffness=10:30:{size}", jobs) for size in sizes])
+    wall, processor = (
+        [median(getattr(long, name) - getattr(short, name) for long, short in measured) for measured in pairs.values()]
+        for name in ("wall", "processor")
+    )
+    rate = f"{robots / wall[0]:.1f} robots a second in one process, {robots / wall[1]:.1f} in two"
+    yield f"cores   {rate}: {wall[0] / wall[1]:.2f} times (at least 1.8)"
+    cost = [1000 * seconds / robots for seconds in processor]
+    costs = f"{cost[0]:.2f} ms of processor time a robot in one process, {cost[1]:.2f} ms in all of two"
+    yield f"cores   {costs}: {2 * cost[0] / cost[1]:.2f} times while both cores are busy"
 
 
 def compare_memory(environment: Environment, folder: Path, options: argparse.Namespace) -> Iterator[str]:
@@ -126,31 +142,33 @@ def compare_memory(environment: Environment, folder: Path, options: argparse.Nam
     spec = folder / "small.robot.yaml"
     spec.write_text(SMALL, "utf-8")
     for count in map(int, options.counts.split(",")):
-        wall, client, other = run_sweep(
-            environment, folder, spec, f"reach=0.2m:2m:{count}", os.cpu_count() or 1, pack="tar"
-        )
-        rate = count / wall
+        run = run_sweep(environment, folder, spec, f"reach=0.2m:2m:{count}", os.cpu_count() or 1, pack="tar")
         yield (
-            f"memory  {count:7,} robots: client {client:.0f} MB, largest other process {other:.0f} MB; "
-            f"{wall:.0f} s, {rate:.0f} a second"
+            f"memory  {count:7,} robots: client {run.client:.0f} MB, largest other process {run.other:.0f} MB; "
+            f"{run.wall:.0f} s, {count / run.wall:.0f} a second"
         )
 
 
-def run_sweep(
-    environment: Environment, folder: Path, spec: Path, values: str, jobs: int, *, pack: str = ""
-) -> tuple[float, float, float]:
-    """Run the command; return wall time [s], and the peak memory of it and of its largest descendant [MB]."""
+def run_sweep(environment: Environment, folder: Path, spec: Path, values: str, jobs: int, *, pack: str = "") -> Run:
+    """Run the command."""
     out = folder / "out"
     shutil.rmtree(out, ignore_errors=True)
     words = ["sweep", str(spec), "--set", values, "-o", str(out), "--jobs", str(jobs), "--quiet"]
     words += ["--pack", pack] if pack else ["--table-only"]
-    begin = time.perf_counter()
+    begin, before = time.perf_counter(), processor_time_of_children()
     with subprocess.Popen([*environment.prefix, environment.program("linkforge"), *words]) as process:
         peaks = watch(process)
     if process.returncode:
         sys.exit(f"exit code {process.returncode} of linkforge {' '.join(words)}")
     client = peaks.pop(process.pid, 0.0)
-    return time.perf_counter() - begin, client, max(peaks.values(), default=0.0)
+    wall, processor = time.perf_counter() - begin, processor_time_of_children() - before
+    return Run(wall, processor, client, max(peaks.values(), default=0.0))
+
+
+def processor_time_of_children() -> float:
+    """Return the processor time of all processes that ended below this one [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def watch(process: subprocess.Popen[bytes]) -> dict[int, float]:

@@ -88,7 +88,7 @@ class Cluster:
         except KilledWorker as error:
             raise SweepError(f"{RETRIES} workers were lost with the same robots; is there enough memory?") from error
         except CancelledError as error:
-            raise SweepError("the connection to the scheduler was lost; --resume goes on") from error
+            raise SweepError("the connection to the scheduler was lost; --resume continues") from error
         except SweepError:
             raise
         except Exception as error:

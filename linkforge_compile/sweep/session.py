@@ -76,7 +76,7 @@ def execute(
 
 
 @contextmanager
-def _write_errors(folder: Path, way_out: str = "once it can be written, --resume goes on") -> Iterator[None]:
+def _write_errors(folder: Path, way_out: str = "once it can be written, --resume continues") -> Iterator[None]:
     """Turn an error of the system, such as a full disk, into a SweepError."""
     try:
         yield

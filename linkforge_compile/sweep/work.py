@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from linkforge_compile.compilation import Compilation
 
 Function: TypeAlias = Callable[[Robot, Mapping[str, object]], object]
-"""A user's function of a robot and its values by parameter: SI numbers, texts and truth values.
+"""A user's function of a robot and its values by parameter: SI numbers, strings and booleans.
 
 It returns a number, which becomes the column `result`, a mapping of columns, or None for no columns."""
 
@@ -118,7 +118,7 @@ def files_of(compilation: Compilation) -> tuple[Path, ...]:
 
 
 def values_of(request: Request, point: Point) -> dict[str, object]:
-    """Return the values of a point: numbers in SI units, truth values and texts."""
+    """Return the values of a point: numbers in SI units, booleans and strings."""
     place, sink = Span(SourceFile("<sweep>", ""), 1, 1, 1, 1), Diagnostics()
     values: dict[str, object] = {}
     for name, text in point.values.items():
@@ -149,7 +149,7 @@ def _apply(function: Function, robot: Robot, values: Mapping[str, object], row: 
         found = function(robot, values)
         columns = found if isinstance(found, Mapping) else {} if found is None else {"result": found}
         return _checked_columns(columns, row)
-    except Exception as error:  # the user's own code may raise anything, and other robots go on
+    except Exception as error:  # the user's own code may raise anything, and the sweep continues
         return _failed(f"the function raised {type(error).__name__}: {error}")
 
 
@@ -157,10 +157,12 @@ def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
     checked: Row = {}
     for name, value in columns.items():
         if not isinstance(name, str) or name in row:
-            raise ValueError(f"{name!r} cannot be a column: it {'is one already' if name in row else 'is no text'}")
-        cell = value.item() if hasattr(value, "item") else value  # of numpy's numbers and truth values
+            raise ValueError(
+                f"{name!r} cannot be a column: it {'is one already' if name in row else 'is not a string'}"
+            )
+        cell = value.item() if hasattr(value, "item") else value  # of numpy's numbers and booleans
         if not (cell is None or isinstance(cell, bool | int | float | str)):
-            raise TypeError(f"column {name!r} takes a number, a truth value or text, found {type(value).__name__}")
+            raise TypeError(f"column {name!r} takes a number, a boolean or a string, found {type(value).__name__}")
         checked[name] = cell
     return checked
 

@@ -214,7 +214,7 @@ def test_an_interrupted_sweep_goes_on(folder: Path, monkeypatch: pytest.MonkeyPa
     code, text = sweep(folder, *words)
     assert (code, text) == (
         130,
-        "linkforge sweep: interrupted; the same command with --resume goes on in 'out'\n",
+        "linkforge sweep: interrupted; the same command with --resume continues in 'out'\n",
     )
     assert not (folder / "out/table.parquet").exists()
     monkeypatch.undo()
@@ -323,7 +323,7 @@ def test_a_full_disk_is_an_error(folder: Path, monkeypatch: pytest.MonkeyPatch):
         raise OSError(ENOSPC, os.strerror(ENOSPC))
 
     monkeypatch.setattr(Store, "add", full)
-    message = "cannot write to 'out': No space left on device; once it can be written, --resume goes on"
+    message = "cannot write to 'out': No space left on device; once it can be written, --resume continues"
     assert sweep(folder, "--set", "reach=1,2") == (2, f"linkforge sweep: {message}\n")
 
 

@@ -40,9 +40,10 @@ MOST_GROUPS = 20
 """How many messages the summary shows."""
 
 _EXAMPLES = """\
-Every combination of the values of --set is a robot: OUT/robots/000123/, and a row of OUT/table.parquet with its
-parameters, mass, centre of mass, inertia, reach, degrees of freedom, diagnostics and digest. A robot with errors is a
-row with its diagnostics; the others go on, and the exit code is 1. docs/sweep.md describes the table and clusters.
+Each combination of the values of --set makes a robot, in OUT/robots/000123/, and a row of OUT/table.parquet with its
+parameters, mass, centre of mass, inertia, reach, degrees of freedom, diagnostics and digest. A robot with errors has
+only a row, with its diagnostics; the sweep continues, and the exit code is 1. docs/sweep.md describes the table and
+clusters.
 It needs the extra `sweep`: pip install 'linkforge-compile[sweep]'.
 
 examples:
@@ -53,7 +54,7 @@ examples:
   linkforge sweep arm.robot.yaml --sample 10000 --seed 1 -o out/     random values within each parameter's own limits
   linkforge sweep arm.robot.yaml --sample 1000 --set reach=0.4m:1m -o out/     and of reach between these
   linkforge sweep arm.robot.yaml --values points.csv -o out/         a row of a CSV or Parquet file for each robot
-  linkforge sweep arm.robot.yaml --set reach=0.4m:1m:20 -o out/ --resume       go on where it was interrupted
+  linkforge sweep arm.robot.yaml --set reach=0.4m:1m:20 -o out/ --resume       continue where it was interrupted
   linkforge sweep arm.robot.yaml --sample 100000 -o out/ --pack tar  an archive for each chunk of robots
   linkforge sweep arm.robot.yaml --sample 100000 -o out/ --scheduler tls://head:8786 --tls-ca ca.pem \\
       --tls-cert me.pem --tls-key me.key
@@ -101,15 +102,17 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
         help="write this format, once more for another one (default: URDF, and SRDF for a spec with `semantic`)",
     )  # fmt: skip
     packing = group.add_mutually_exclusive_group()
-    packing.add_argument("--pack", choices=("tar", "zip"), help="an archive for each chunk instead of a folder a robot")
+    packing.add_argument(
+        "--pack", choices=("tar", "zip"), help="an archive for each chunk instead of a folder for each robot"
+    )
     packing.add_argument("--table-only", action="store_true", help="write the table, and no robots")
     group.add_argument(
         "--chunk",
         metavar="N",
         type=_positive,
-        help="how many robots are sent and written at once (default: a 32nd of all, at most 100)",
+        help="robots that are compiled and written together (default: a 32nd of all, at most 100)",
     )
-    group.add_argument("--resume", action="store_true", help="go on with an interrupted sweep in the same folder")
+    group.add_argument("--resume", action="store_true", help="continue an interrupted sweep in the same folder")
 
 
 def _add_place_options(parser: argparse.ArgumentParser) -> None:
@@ -118,7 +121,7 @@ def _add_place_options(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         metavar="N",
         type=_jobs,
-        help=f"how many processes; 1 needs no Dask (default: one a processor, 1 for fewer than {FEW} robots)",
+        help=f"how many processes; 1 needs no Dask (default: one per processor, 1 for fewer than {FEW} robots)",
     )
     group.add_argument(
         "--scheduler", metavar="ADDRESS", help="the scheduler of a Dask cluster, such as tls://head:8786"
@@ -160,7 +163,7 @@ def _run(arguments: argparse.Namespace) -> int:
         summary = execute(plan, store, _place_of(plan, arguments), packing, resume=arguments.resume, progress=progress)
     except KeyboardInterrupt:
         bar.close()
-        print_line(f"linkforge sweep: interrupted; the same command with --resume goes on in '{folder}'")
+        print_line(f"linkforge sweep: interrupted; the same command with --resume continues in '{folder}'")
         return INTERRUPTED
     finally:
         bar.close()
