@@ -126,11 +126,11 @@ class Prover:
         pairs = [f"{name}:={value}" for name, value in arguments.items()]
         packages, allow_outside = self._settings.packages, self._settings.allow_outside
         imported = import_urdf(self._main, arguments=pairs, packages=packages, allow_outside=allow_outside)
-        if imported.text is None or imported.has_errors:
+        if imported.text is None:
             return _errors_in(imported.diagnostics)
         compilation = compile_source(imported.text, str(self._main), self._main.parent, self._settings)
-        if compilation.robot is None:
-            return _errors_in(compilation.diagnostics)
+        if compilation.robot is None:  # the import's errors have their places in the xacro
+            return _errors_in(imported.diagnostics) or _errors_in(compilation.diagnostics)
         leave_out(compilation.robot)
         return compilation.robot
 

@@ -67,6 +67,11 @@ class _Attempt(NamedTuple):
     comparisons: Sequence[Comparison]
 
     @property
+    def is_about_robots(self) -> bool:
+        """Whether xacro makes a robot for any of the combinations."""
+        return any(one.is_equal or one.is_failure for one in self.comparisons)
+
+    @property
     def failures(self) -> int:
         return sum(not (one.is_equal or one.refused) for one in self.comparisons)
 
@@ -93,9 +98,11 @@ class Migrator:
 
     def run(self) -> Proved:
         """Return the specs with the fewest macros in place that are proved."""
-        if faults := self._prover.faults_of_xacro(self.given):
-            return self._without_result(faults)
         attempt = self._attempt(Constraints())
+        faults = self._prover.faults_of_xacro(self.given)
+        # With other arguments it may make a robot.
+        if faults and not (isinstance(attempt, _Attempt) and attempt.is_about_robots):
+            return self._without_result(faults)
         if isinstance(attempt, CannotTranslateError):
             return self._kept(attempt)
         if isinstance(attempt, OutOfTimeError):
@@ -178,12 +185,11 @@ class Migrator:
 
     def verify(self) -> Proved:
         """Compare the specs in the folder, which may have been changed since, with the xacro."""
-        if faults := self._prover.faults_of_xacro(self.given):
-            return self._without_result(faults)
+        faults = self._prover.faults_of_xacro(self.given)
         try:
             migration = self._translator.migrate(Constraints())
         except CannotTranslateError as error:
-            return self._kept(error)
+            return self._without_result(faults) if faults else self._kept(error)
         except OutOfTimeError:
             return self._without_result([self._too_long()])
         path, names = self.folder / migration.main, migration.names
@@ -193,6 +199,8 @@ class Migrator:
         missing = [one for one in names if one not in specs.names]
         gone = [PARAMETER_GONE.at(None, spec=str(path), name=names[one], argument=one) for one in missing]
         attempt = _Attempt(migration, self._prover.compare(specs, migration.combinations))
+        if faults and not attempt.is_about_robots:
+            return self._without_result(faults)
         return self._proved(attempt, [*gone, *self._faults_of(attempt.comparisons)])
 
     def _parameters_of(self, path: Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
