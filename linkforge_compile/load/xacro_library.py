@@ -82,6 +82,7 @@ class XacroLibrary(NamedTuple):
     - `arguments`: the first default of each `<xacro:arg>` by name, None for none; `used` are those in `$(arg NAME)`.
     - `early`: the arguments that the root uses, which xacro needs before it has seen any default.
     - `macros`: by name; that of a namespace is `NAMESPACE.NAME`.
+    - `declarations`: the first `<xacro:arg>` of each name.
     - `notes`: why an include could not be followed, so that there may be more.
     """
 
@@ -90,6 +91,7 @@ class XacroLibrary(NamedTuple):
     used: Sequence[str]
     early: frozenset[str]
     macros: Mapping[str, Macro]
+    declarations: Mapping[str, XmlElement]
     notes: Sequence[Diagnostic]
 
 
@@ -122,7 +124,13 @@ def read_library(path: Path, loader: Loader, sink: Diagnostics, used: ImportSite
     search.search(root, path)
     early = frozenset(_ARG_USE.findall(" ".join(root.values.values())))
     return XacroLibrary(
-        root.get("name"), search.arguments, tuple(search.used), early, search.macros, tuple(search.notes)
+        root.get("name"),
+        {name: element.get("default") for name, element in search.declarations.items()},
+        tuple(search.used),
+        early,
+        search.macros,
+        search.declarations,
+        tuple(search.notes),
     )
 
 
@@ -141,7 +149,7 @@ class _Search:
     """Searches a xacro file and all that it includes, each once in each namespace."""
 
     def __init__(self, loader: Loader) -> None:
-        self.arguments: dict[str, str | None] = {}
+        self.declarations: dict[str, XmlElement] = {}
         self.used: dict[str, None] = {}
         self.macros: dict[str, Macro] = {}
         self._notes = Diagnostics()
@@ -161,7 +169,7 @@ class _Search:
         for element in root.walk():
             name, included = element.get("name"), element.get("filename")
             if element.tag == "xacro:arg" and name:
-                self.arguments.setdefault(name, element.get("default"))
+                self.declarations.setdefault(name, element)
             elif element.tag == "xacro:macro" and name:
                 whole = namespace + name.removeprefix("xacro:")
                 self.macros[whole] = Macro(whole, parameters_in(element.get("params") or ""), element)
@@ -213,7 +221,8 @@ class _Search:
             if folder is None:
                 raise _NotFollowedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
             return str(folder)
-        default = self.arguments.get(name)
+        declared = self.declarations.get(name)
+        default = declared.get("default") if declared else None
         if default is None or "$" in default:
             raise _NotFollowedError(_COMPUTED_NAME)
         return default

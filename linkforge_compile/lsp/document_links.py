@@ -10,14 +10,15 @@ from lsprotocol import types
 from linkforge_compile.analysis import Settings
 from linkforge_compile.diagnostics import BeyondLimitError, Diagnostics
 from linkforge_compile.load import Loader, SpecFile
-from linkforge_compile.load.locations import PathSite, locate
-from linkforge_compile.load.xacro_library import read_library
+from linkforge_compile.load.locations import PathSite, locate, names_xacro
+from linkforge_compile.load.xacro_library import Macro, XacroLibrary, read_library
 from linkforge_compile.lsp.convert import uri_of
 from linkforge_compile.lsp.placed import leaves_in, placed_in
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.roots import exists, identity
 from linkforge_compile.schema.descriptions import described_at
 from linkforge_compile.source import Position, Span
+from linkforge_compile.source.xml_tree import XmlAttribute
 from linkforge_compile.syntax import YamlMap, YamlScalar, has_expression
 
 _FILE = "a file name"
@@ -41,30 +42,43 @@ def files_at(document: Document, at: Position, settings: Settings) -> list[types
     return [types.Location(link.target, start) for link in here if link.target]
 
 
-def macros_at(document: Document, at: Position, settings: Settings) -> list[types.Location]:
-    """Return where the macro of a xacro is defined that a module names at a position; none for other text."""
+def declarations_in_xacro(document: Document, at: Position, settings: Settings) -> list[types.Location]:
+    """Return where the xacro of a module declares what is named at a position: the macro, or a parameter in `with`."""
     user, packages = _spec_of(document)
     entries = user.tree.section("modules").values() if user else ()
-    for fields in (entry.value for entry in entries):
-        use, macro = (fields.get(key) if isinstance(fields, YamlMap) else None for key in ("use", "macro"))
-        is_here = isinstance(macro, YamlScalar) and document.holds(macro.span)
-        if user and is_here and isinstance(use, YamlScalar) and macro and macro.span.start <= at <= macro.span.end:
-            site = PathSite(use.text, use.span, user, packages)
-            return _macro(document, site, macro.span.text or "", settings.loader(document.path))
+    for fields in (entry.value for entry in entries if isinstance(entry.value, YamlMap)):
+        use, macro = fields.get("use"), fields.get("macro")
+        parameter = next((one for one in fields.section("with").values() if _is_at(one.key.span, document, at)), None)
+        is_macro = isinstance(macro, YamlScalar) and _is_at(macro.span, document, at)
+        if user and isinstance(use, YamlScalar) and (parameter or is_macro):
+            library = _library(PathSite(use.text, use.span, user, packages), settings.loader(document.path))
+            called = library.macros.get(macro.text) if library and isinstance(macro, YamlScalar) else None
+            name = _declaration(library, called, parameter.name if parameter else "") if library else None
+            location = document.columns.location(name.span) if name else None
+            return [location] if location else []
     return []
 
 
-def _macro(document: Document, site: PathSite, name: str, loader: Loader) -> list[types.Location]:
+def _is_at(span: Span, document: Document, at: Position) -> bool:
+    return document.holds(span) and span.start <= at <= span.end
+
+
+def _library(site: PathSite, loader: Loader) -> XacroLibrary | None:
+    """Return what a xacro declares; None for another file."""
     sink = Diagnostics()
     try:
-        target = locate(site, loader, sink)
-        library = read_library(target.path, loader, sink, site.used) if target else None
+        target = locate(site, loader, sink) if names_xacro(site, loader) else None
+        return read_library(target.path, loader, sink, site.used) if target else None
     except BeyondLimitError:
-        return []
-    macro = library.macros.get(name.strip("'\"")) if library else None
-    attribute = macro.element.attributes.get("name") if macro else None
-    location = document.columns.location(attribute.span) if attribute else None
-    return [location] if location else []
+        return None
+
+
+def _declaration(library: XacroLibrary, macro: Macro | None, parameter: str) -> XmlAttribute | None:
+    """Return the name of a macro, the list with a parameter of it, or the name of an argument; None if unknown."""
+    if macro is not None and (not parameter or macro.parameter(parameter)):
+        return macro.element.attributes.get("params" if parameter else "name")
+    element = library.declarations.get(parameter)
+    return element.attributes.get("name") if element else None
 
 
 def _spec_of(document: Document) -> tuple[SpecFile | None, Mapping[str, Path]]:

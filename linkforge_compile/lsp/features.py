@@ -16,7 +16,7 @@ from linkforge_compile.lsp.changes import changes_of, workspace_edit
 from linkforge_compile.lsp.code_actions import KINDS, code_actions
 from linkforge_compile.lsp.completion import TRIGGERS, Client, complete
 from linkforge_compile.lsp.convert import path_of
-from linkforge_compile.lsp.document_links import document_links, files_at, macros_at
+from linkforge_compile.lsp.document_links import declarations_in_xacro, document_links, files_at
 from linkforge_compile.lsp.folding import folding_ranges
 from linkforge_compile.lsp.formatting import format_edits
 from linkforge_compile.lsp.hover import hover
@@ -138,7 +138,8 @@ def _add_navigation(server: SpecServer) -> None:
         def defined(document: Document, settings: Settings) -> list[types.Location]:
             last = as_last_read(document, params.position)
             at = last.place(params.position)
-            return declarations_of(last, at) or files_at(last, at, settings) or macros_at(last, at, settings)
+            found = declarations_of(last, at) or files_at(last, at, settings)
+            return found or declarations_in_xacro(last, at, settings)
 
         return await server.answer(params.text_document.uri, defined)
 

@@ -245,6 +245,12 @@ def test_a_text_that_was_never_readable_has_completions(editor: Editor, tmp_path
     assert "reach" in labels_at(editor, file, text + "joints:\n  j: {origin: [0, 0, $(¦)]}\nmaterials: ]\n")
 
 
+def test_an_include_offers_files_and_no_packages(editor: Editor, tmp_path: Path):
+    (tmp_path / "palette.yaml").write_text("materials: {}\n")
+    text = "linkforge: 1\nname: arm\ninclude: [¦]\n"
+    assert labels_at(editor, tmp_path / "arm.robot.yaml", text) == ["palette.yaml"]
+
+
 def test_a_part_has_the_names_and_parameters_of_the_spec_that_includes_it(editor: Editor, tmp_path: Path):
     part, whole = tmp_path / "joints.robot.yaml", tmp_path / "arm.robot.yaml"
     whole.write_text(

@@ -147,6 +147,14 @@ def test_the_parts_of_a_urdf_are_shown(editor: Editor, cell: Path):
     assert "uses `old.urdf`\n- prefix `old_`\n- 2 links, 1 joint" in found
 
 
+def test_the_parameter_of_a_macro_is_shown(editor: Editor, tmp_path: Path):
+    macro = '<xacro:macro name="leg" params="prefix side:=left"><link name="${prefix}foot"/></xacro:macro>'
+    (tmp_path / "leg.xacro").write_text(f'<robot name="m" xmlns:xacro="http://www.ros.org/wiki/xacro">{macro}</robot>')
+    entry = "{use: leg.xacro, macro: leg, parent: base, with: {si¦de: right}}"
+    text = f"linkforge: 1\nname: cart\nlinks: {{base: }}\nmodules:\n  leg: {entry}\n"
+    assert hover(editor, tmp_path / "cart.robot.yaml", text).endswith("- string\n- default `left`")
+
+
 def test_a_joint_is_shown_in_its_tree(editor: Editor, cell: Path):
     found = hover(editor, cell / "cell.robot.yaml", CELL_TEXT.replace("parent: world}", "parent: wor¦ld}", 1))
     assert "joint `left_joint` to `left_base`\n- joint `right_joint` to `right_base`" in found

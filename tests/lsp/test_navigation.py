@@ -62,7 +62,7 @@ def definition(editor: Editor, path: Path, marked: str) -> list[str]:
     return shown(editor.ask(lambda client: client.text_document_definition_async(params)))
 
 
-def test_a_macro_leads_to_its_definition(editor: Editor, tmp_path: Path):
+def test_macros_and_arguments_lead_to_their_declarations_in_the_xacro(editor: Editor, tmp_path: Path):
     """Also to one in a file that the xacro includes."""
     root = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n{}\n</robot>'
     macro = '<xacro:macro name="wheel" params="prefix"><link name="${prefix}rim"/></xacro:macro>'
@@ -72,6 +72,12 @@ def test_a_macro_leads_to_its_definition(editor: Editor, tmp_path: Path):
         "linkforge: 1\nname: cart\nlinks: {base: }\nmodules:\n  left: {use: parts.xacro, macro: whe¦el, parent: base}\n"
     )
     assert definition(editor, tmp_path / "cart.robot.yaml", entry) == ["wheel:2:wheel"]
+    set_ = entry.replace("whe¦el", "wheel").replace("parent: base}", "parent: base, with: {pre¦fix: a_}}")
+    assert definition(editor, tmp_path / "cart.robot.yaml", set_) == ["wheel:2:prefix"]
+    (tmp_path / "leg.xacro").write_text(root.format('<xacro:arg name="side" default="left"/><link name="foot"/>'))
+    argument = "  left: {use: leg.xacro, parent: base, with: {si¦de: right}}\n"
+    leg = f"linkforge: 1\nname: cart\nlinks: {{base: }}\nmodules:\n{argument}"
+    assert definition(editor, tmp_path / "cart.robot.yaml", leg) == ["leg:2:side"]
     unknown = entry.replace("whe¦el", "whe¦l")
     assert definition(editor, tmp_path / "cart.robot.yaml", unknown) == []
 

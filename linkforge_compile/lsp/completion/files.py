@@ -43,7 +43,8 @@ def offer_files(context: Context, text: str, endings: tuple[str, ...] = ()) -> l
         return []
     offers = [_offer(name, folder, begin, end) for name in _listed(folder, context.document.path, roots, endings)]
     package = Offer(_PACKAGE, _PACKAGE, Kind.Folder, KNOWN, "a file in a package", begin=begin)
-    return offers if start else [*offers, package]
+    is_include = context.cursor.path[:1] == ("include",)  # which takes no package
+    return offers if start or is_include else [*offers, package]
 
 
 def endings_at(context: Context) -> tuple[str, ...]:

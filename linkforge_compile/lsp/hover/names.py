@@ -130,7 +130,9 @@ def _of_module(use: FileUse, name: str, settings: Settings) -> ListedParameter |
     except BeyondLimitError:
         return None
     listing = listings.get((stack[0].text or "").strip("'\""))
-    return _named(listing.parameters, name) if listing else None
+    macro = use.instance.entry.node.child("macro") if use.instance.entry else None
+    called = macro.text if isinstance(macro, YamlScalar) else None
+    return _named(listing.settable(called), name) if listing else None
 
 
 def _listed(spec: SpecFile, settings: Settings) -> tuple[ListedParameter, ...]:
