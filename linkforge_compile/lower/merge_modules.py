@@ -12,7 +12,12 @@ from linkforge_compile.core.models.graph import tree_root
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import DeletedNames, Diagnostic, Diagnostics, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import REFUSED, VIRTUAL_JOINT_LEFT_OUT
-from linkforge_compile.diagnostics.codes.names import MODULES_SHARE_NAMES, NAMES_OF_THIS_FILE, OWN_ATTRIBUTE_STAYS
+from linkforge_compile.diagnostics.codes.names import (
+    MATERIALS_DIFFER,
+    MODULES_SHARE_NAMES,
+    NAMES_OF_THIS_FILE,
+    OWN_ATTRIBUTE_STAYS,
+)
 from linkforge_compile.expand.instance import Instance, joint_name_of
 from linkforge_compile.lower.file import LoweredFile, unresolved_of
 from linkforge_compile.lower.merge_managers import ManagerMerger
@@ -172,7 +177,8 @@ class ModuleMerger:
         for name, material in component.materials.items():
             own = self._robot.materials.get(name, material)
             if own != material:
-                yield NameClash(f"material '{name}'", self._owners.get(("material", name)), own.source)
+                owner = self._owners.get(("material", name))
+                yield NameClash(f"material '{name}'", owner, own.source, material.source)
 
     def _merge(
         self, component: Robot, module: Instance, unresolved: UnresolvedNames, attached_root: str | None
@@ -252,12 +258,13 @@ class NameClash(NamedTuple):
     """A part of a module whose name is defined already.
 
     `part` is its kind and final name in messages. `owner` is the module with the first definition, None for the file
-    that uses both.
+    that uses both. `second` is the place of another material of that name, which might have been the same one.
     """
 
     part: str
     owner: Instance | None
     first: SourceRef | None
+    second: SourceRef | None = None
 
 
 def report_name_clashes(module: Instance, clashes: Iterable[NameClash], sink: Diagnostics) -> None:
@@ -268,7 +275,13 @@ def report_name_clashes(module: Instance, clashes: Iterable[NameClash], sink: Di
     for owner, group in by_owner.items():
         part, more, first = group[0].part, len(group) - 1, group[0].first
         parts = f"{part} and {more} more" if more else part
-        if owner is None:
+        if group[0].second:  # materials come last, so that there are no other clashes
+            who = f"module '{owner.name}'" if owner else "this file"
+            places = (first.span if first else None, group[0].second.span)
+            notes = [Note("it is declared here", place) for place in places]
+            facts = {"module": module.name, "parts": parts, "first": who}
+            sink.report(MATERIALS_DIFFER.at(module.entry, "prefix", notes=notes, **facts))
+        elif owner is None:
             notes = [Note(f"{part} is here", first.span)] if first else []
             sink.report(NAMES_OF_THIS_FILE.at(module.entry, "prefix", module=module.name, parts=parts, notes=notes))
         else:

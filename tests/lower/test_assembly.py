@@ -161,8 +161,12 @@ def test_modules_of_one_prefix_are_reported_at_the_second():
             links: {torso: }
             modules:
               left: {parent: torso, prefix: x_}
-              right: {parent: torso, prefix: x_}   # E[LF4106]:34 modules 'left' and 'right' both have PARTS
-            """.replace("PARTS", "material 'x_skin'; give one of them another prefix"),
+              right: {parent: torso, prefix: x_}   # E[LF4113]:34 module 'right' declares PARTS
+            """.replace(
+                "PARTS",
+                "material 'x_skin' differently from module 'left'; make the declarations equal, or give the module "
+                "another prefix",
+            ),
             {"left": blue, "right": red},
         )
     )

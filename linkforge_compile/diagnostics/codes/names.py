@@ -22,6 +22,12 @@ MODULES_SHARE_NAMES = Code(
 NAMES_OF_THIS_FILE = Code(
     "LF4107", _E, "module '{module}' and this file both have {parts}; give the module another prefix"
 )
+MATERIALS_DIFFER = Code(
+    "LF4113",
+    _E,
+    "module '{module}' declares {parts} differently from {first}; make the declarations equal, or give the module "
+    "another prefix",
+)
 LINK_AND_JOINT = Code(
     "LF4108", _W, "a link and a joint are both named '{name}', which Gazebo refuses; rename one of them"
 )
