@@ -224,7 +224,10 @@ class Calls(MacroCalls):
         return found if isinstance(found, Block) and found.elements is not None else None
 
     def imported(self, name: str, context: Context, evaluator: Evaluator) -> ast.expr | None:
-        """Return a name of a caller in a module: a constant as a variable of its own, another one as a parameter."""
+        """Return a name of a caller in a module: a constant as a variable of its own, another one as a parameter.
+
+        A parameter of the caller is one here, too, unless the module needs its value.
+        """
         caller = self._caller(context)
         if caller is None:
             return None
@@ -237,9 +240,13 @@ class Calls(MacroCalls):
         source = entry.source if isinstance(entry, Value) else None
         if isinstance(entry, Value) and entry.test is not None:
             raise NotConstantError(symbols_in(entry.test))  # a module cannot have it in some cases only
+        is_parameter = source is None and any(name in one.arguments for one in caller.calls)
+        is_fixed = name in self._plan.fixed.get(self._by_file[context.file].macro.body, ())
         try:
             known = constant_of(node)
         except NotConstantError:
+            return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
+        if is_parameter and not is_fixed:
             return self._as_parameter(name, node, context, lambda where, by: _looked_up(name, where, by))
         if isinstance(node, Reference) and node.symbol.role == "data":
             own = _own_value(name, node, context.file)

@@ -211,12 +211,16 @@ def _by_body(called: Iterable[Called]) -> dict[XmlElement, list[Called]]:
 
 
 def _constant(names: Iterable[str], calls: list[Called]) -> frozenset[str]:
-    """Return the parameters of a macro that have one value in all calls, which depends on no name but one of data."""
+    """Return the names that have one value in all calls of a macro, which depends on no name but one of data.
+
+    They are parameters of the macro, or names around its definition.
+    """
     values = {name: [one.arguments.get(name) for one in calls] for name in names}
     return frozenset(
         name
         for name, found in values.items()
         if all(one is not None and _is_constant(one) and same_text(one, found[0] or ()) for one in found)
+        or not any(name in one.macro.parameters for one in calls)
     )
 
 

@@ -107,3 +107,23 @@ def test_a_link_that_hangs_on_one_of_two_others_by_an_argument_is_a_part_of_the_
     made = migrated(tmp_path, text)
     assert "arm.robot.yaml" in made.files
     assert "when: $(sim)" in made.files["arm.robot.yaml"]
+
+
+def test_a_parameter_of_the_macro_around_is_one_of_the_module_too(tmp_path: Path):
+    text = """
+<xacro:property name="package" value="shop"/>
+<xacro:macro name="part" params="name">
+  <link name="${arm_id}_${name}"><visual><geometry><mesh filename="package://${package}/${arm_id}.stl"/></geometry></visual></link>
+</xacro:macro>
+<xacro:macro name="arm" params="arm_id">
+  <xacro:part name="upper"/>
+  <joint name="joint" type="fixed"><parent link="${arm_id}_upper"/><child link="${arm_id}_lower"/></joint>
+  <xacro:part name="lower"/>
+</xacro:macro>
+<xacro:arm arm_id="fer"/>
+"""
+    made = migrated(tmp_path, text)
+    part = made.files["part.robot.yaml"]
+    assert "  base_name: {type: string}\n  arm_id: {type: string}\n\nvariables:\n  package: shop\n" in part
+    assert "fer" not in part
+    assert "with: {base_name: $(part.base_name), arm_id: $(arm_id)}" in made.files["arm.robot.yaml"]
