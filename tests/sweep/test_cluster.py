@@ -10,10 +10,11 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+import distributed
 import pytest
 
 from linkforge_compile._version import __version__
-from linkforge_compile.sweep import SweepError, connection, run, session
+from linkforge_compile.sweep import SweepError, connection, run, scheduler, session
 from linkforge_compile.sweep.bundle import Bundle, Files, Tree
 from linkforge_compile.sweep.connection import cluster, require_same_versions
 from linkforge_compile.sweep.place import Place
@@ -197,6 +198,22 @@ def test_a_function_whose_module_a_worker_lacks_is_an_error(
     monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
     with pytest.raises(SweepError, match="a worker lacks what your function needs: No module named 'legs_of_mine'"):
         run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, module.score, jobs=2)
+
+
+def test_a_worker_that_comes_later_has_the_same_version(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(scheduler, "__version__", "0.0.1")
+    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    message = f"a worker has linkforge-compile {__version__}, and the sweep was begun with 0.0.1"
+    with pytest.raises(SweepError, match=re.escape(message)):
+        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, jobs=2)
+
+
+def test_a_lost_scheduler_is_an_error(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As Dask reports it: each task is cancelled."""
+    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(distributed.Future, "result", lambda self: self.cancel() or self.client.sync(self._result))
+    with pytest.raises(SweepError, match="the connection to the scheduler was lost; --resume continues"):
+        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, jobs=2)
 
 
 def test_a_function_that_cannot_be_sent_is_an_error(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
