@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkforge_compile.sweep.bundle import changed_files
+from linkforge_compile.sweep.wording import Wording
 
 _OPTIONS = {
-    "linkforge": "the version of linkforge",
+    "options": "options of formats",
     "parameters": "-p",
     "set": "--set",
+    "values": "--values",
     "variants": "--variant",
     "where": "--where",
     "sample": "--sample",
@@ -19,7 +21,7 @@ _OPTIONS = {
     "chunk": "--chunk",
     "output": "--pack or --table-only",
 }
-"""The names of entries as users know them."""
+"""Entries that the command has an option for, under another name."""
 
 _FOLLOWING = ("points", "robots", "chunk")
 """Entries that follow from others, unless they are all that differs."""
@@ -30,7 +32,7 @@ def with_files(manifest: Mapping[str, Any], other: Mapping[str, Any]) -> dict[st
     return {**manifest, "files": dict(sorted({**other.get("files", {}), **manifest["files"]}.items()))}
 
 
-def differences(theirs: Mapping[str, Any], ours: Mapping[str, Any]) -> list[str]:
+def differences(theirs: Mapping[str, Any], ours: Mapping[str, Any], words: Wording) -> list[str]:
     """Return a line for each difference of what was requested; a file that only later robots read is read here."""
     gone = {path: digest for path, digest in theirs["files"].items() if path not in ours["files"]}
     changed = [path for path, digest in ours["files"].items() if theirs["files"].get(path) != digest]
@@ -38,16 +40,24 @@ def differences(theirs: Mapping[str, Any], ours: Mapping[str, Any]) -> list[str]
     names = [name for name in ours if name != "files" and theirs.get(name) != ours[name]]
     if lines or set(names).difference(_FOLLOWING):
         names = [name for name in names if name not in _FOLLOWING]
-    return [*lines, *(_difference(name, theirs.get(name), ours[name]) for name in names)]
+    return [*lines, *(f"{_named(name, words)}: {_difference(name, theirs.get(name), ours[name])}" for name in names)]
 
 
 def _difference(name: str, theirs: Any, ours: Any) -> str:
     if name == "values":  # a digest
-        return "--values: another table, or none" if None in (theirs, ours) else "--values: the table changed"
+        return "another table, or none" if None in (theirs, ours) else "the table changed"
     before, now = _beyond(theirs, ours), _beyond(ours, theirs)
     if before == now:  # in another order
         before, now = theirs, ours
-    return f"{_OPTIONS.get(name, name)}: {_shown(before)} before, {_shown(now)} now"
+    return f"{_shown(before)} before, {_shown(now)} now"
+
+
+def _named(entry: str, words: Wording) -> str:
+    if entry == "linkforge":
+        return "the version of linkforge"
+    if words.is_python:
+        return "grid" if entry == "set" else entry
+    return _OPTIONS.get(entry, entry)
 
 
 def _beyond(one: Any, other: Any) -> Any:

@@ -51,7 +51,7 @@ def execute(
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
     files = collect_files(plan)
     with _write_errors(store.folder, "choose another folder"):
-        done = store.begin(plan.manifest(files.bundle, packing), resume=resume)
+        done = store.begin(plan.manifest(files.bundle, packing), plan.choice.words, resume=resume)
     summary = Summary(plan.size)
     if not store.is_finished:
         todo = [chunk for chunk in chunks_of(plan.size, plan.chunk) if chunk not in done]

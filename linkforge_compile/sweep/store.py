@@ -19,6 +19,7 @@ from linkforge_compile.sweep.arrow import arrow, parquet
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.manifest import differences, with_files
 from linkforge_compile.sweep.rows import COUNTS, FIGURES, TEXTS, Cell, Row
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import Made
 from linkforge_compile.units import Dimension
 
@@ -51,7 +52,7 @@ class Store:
         self._schema = schema_of(columns, has_variants=has_variants)
         self._manifest: Mapping[str, Any] = {}
 
-    def begin(self, manifest: Mapping[str, object], *, resume: bool) -> frozenset[Chunk]:
+    def begin(self, manifest: Mapping[str, object], words: Wording, *, resume: bool) -> frozenset[Chunk]:
         """Write the manifest, or compare it with that of the sweep to resume; return the chunks that are done.
 
         SweepError if the folder has a sweep that is not to be resumed, or another one than this.
@@ -63,12 +64,13 @@ class Store:
             file.unlink()  # of a sweep that ended before its first chunk, such as one whose scheduler was not there
         if file.exists():
             if not resume:
-                raise SweepError(
-                    f"'{self.folder}' has a sweep; continue it with --resume, remove the folder, or choose another one"
-                )
+                ways = f"continue it with {words.resuming}, remove the folder, or choose another one"
+                raise SweepError(f"'{self.folder}' has a sweep; {ways}")
             self._manifest = json.loads(file.read_text("utf-8"))
-            if found := differences(self._manifest, manifest):
-                lines = "\n  ".join((f"'{self.folder}' has another sweep, so --resume cannot continue it:", *found))
+            if found := differences(self._manifest, manifest, words):
+                lines = "\n  ".join(
+                    (f"'{self.folder}' has another sweep, so {words.resuming} cannot continue it:", *found)
+                )
                 raise SweepError(lines)
         elif self.folder.is_dir() and any(one.name != PARTS for one in self.folder.iterdir()):
             raise SweepError(f"'{self.folder}' has files that no sweep wrote; choose an empty or a new folder")

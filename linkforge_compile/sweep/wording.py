@@ -17,6 +17,11 @@ class Wording(NamedTuple):
         return f"--{name} {value}".rstrip()
 
     @property
+    def resuming(self) -> str:
+        """What continues a sweep."""
+        return "resume=True" if self.is_python else "--resume"
+
+    @property
     def forms(self) -> str:
         """What varies parameters, and how it is written."""
         if self.is_python:

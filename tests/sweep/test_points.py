@@ -145,6 +145,15 @@ def test_in_python_messages_name_the_arguments(tmp_path: Path, arguments: dict[s
     assert "--" not in str(caught.value)
 
 
+def test_in_python_a_sweep_that_differs_names_the_arguments(tmp_path: Path):
+    spec, output = write_arm(tmp_path), tmp_path / "out"
+    run(spec, {"reach": [1, 2]}, output=output)
+    with pytest.raises(SweepError, match="continue it with resume=True"):
+        run(spec, {"reach": [1, 2]}, output=output)
+    with pytest.raises(SweepError, match="resume=True cannot continue it:\n  grid: reach=1,2 before, reach=1 now"):
+        run(spec, {"reach": [1]}, output=output, resume=True)
+
+
 # Samples
 
 
