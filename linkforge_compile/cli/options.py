@@ -328,3 +328,8 @@ def _read_text(stream: BinaryIO, name: str) -> str:
         return text_of(content)
     except UnreadableError as error:
         raise UsageError(f"{name} cannot be read: {error}") from None
+
+
+def usable_processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from linkforge_compile.cli.options import (
     require_one_spec,
     settings_of,
     split_assignments,
+    usable_processors,
 )
 from linkforge_compile.cli.poses import states_of
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
@@ -265,7 +265,7 @@ def _find_matrix(robot: Robot, arguments: argparse.Namespace) -> Matrix | None:
 def _sampling_settings(arguments: argparse.Namespace) -> SamplingSettings:
     from linkforge_compile.collisions.sampling import SamplingSettings
 
-    jobs = arguments.jobs or _processors()
+    jobs = arguments.jobs or min(usable_processors(), MAX_JOBS)
     return SamplingSettings(arguments.samples or DEFAULT_SAMPLES, arguments.seed or 0, jobs)
 
 
@@ -312,9 +312,3 @@ def _seed(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"takes a whole number from 0 on, found '{text}'")
     return int(text)
-
-
-def _processors() -> int:
-    """Return how many processors this process may use, at most MAX_JOBS."""
-    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return min(usable, MAX_JOBS)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -21,6 +20,7 @@ from linkforge_compile.cli.options import (
     refuse_options_of_other_formats,
     require_one_spec,
     split_assignments,
+    usable_processors,
 )
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 from linkforge_compile.cli.targets import name_of
@@ -252,7 +252,7 @@ def _place_of(plan: Plan, arguments: argparse.Namespace) -> Place:
         raise UsageError("--tls-ca, --tls-cert and --tls-key are for --scheduler; leave them out")
     if arguments.scheduler and arguments.jobs:
         raise UsageError("--jobs is for processes of this machine; those of --scheduler are started elsewhere")
-    jobs = 1 if plan.size < FEW else os.cpu_count() or 1
+    jobs = 1 if plan.size < FEW else min(usable_processors(), MAX_JOBS)
     return Place(arguments.jobs or jobs, arguments.scheduler, security)
 
 
