@@ -67,7 +67,7 @@ def computed(tree: ast.expr, names: Names, extensions: list[Parts]) -> ast.expr 
 
     tree = _with_texts(tree, lookup)
     try:
-        value = PythonValues(lookup).value(tree)
+        value = PythonValues(lambda name: lookup(name.id)).value(tree)
     except (UnknownValueError, CannotTranslateError):
         if unknown:
             raise NotConstantError(frozenset(unknown)) from None

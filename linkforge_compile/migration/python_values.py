@@ -3,10 +3,49 @@
 from __future__ import annotations
 
 import ast
+import math
+import operator
+import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from linkforge_compile.migration.constants import FUNCTIONS, MOST_ITEMS, OPERATORS, calculate
+_OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.Pow: operator.pow,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+    ast.Not: operator.not_,
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.In: lambda item, items: item in items,
+    ast.NotIn: lambda item, items: item not in items,
+}
+_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    **{name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan2", "floor", "ceil")},
+    **{"radians": math.radians, "degrees": math.degrees, "min": min, "max": max, "abs": abs, "round": round},
+    **{"len": len, "int": int, "float": float, "str": str},
+}
+_MOST_BASE = 1e12
+"""The largest base of a power."""
+
+_MOST_BITS = 4096
+"""The longest whole numbers together that are computed with."""
+
+_MOST_CHARACTERS = 100_000
+"""The longest text or list that is made."""
+
+_WIDTH = re.compile(r"%[^a-zA-Z%]*(?:\d{4}|\*)")
+"""A `%` that makes a text as long as a number in it says."""
+
 
 _METHODS = frozenset(
     (
@@ -26,7 +65,7 @@ def _range(*bounds: int) -> list[int]:
 
 
 _CALLED: Mapping[str, Callable[..., Any]] = {
-    **FUNCTIONS,
+    **_FUNCTIONS,
     "range": _range,
     **{one.__name__: one for one in (list, dict, tuple, sorted, sum, any, all, bool, zip, enumerate, reversed, set)},
 }
@@ -52,7 +91,7 @@ class UnknownValueError(Exception):
 class PythonValues:
     """Computes expressions; `lookup` gives the value of a name or raises."""
 
-    def __init__(self, lookup: Callable[[str], Any]) -> None:
+    def __init__(self, lookup: Callable[[ast.Name], Any]) -> None:
         self._lookup = lookup
         self._steps = 0
 
@@ -76,7 +115,7 @@ class PythonValues:
             case ast.Constant(value=value):
                 return value
             case ast.Name(id=name):
-                return local[name] if name in local else self._lookup(name)
+                return local[name] if name in local else self._lookup(node)
             case ast.List(elts=items):
                 return self._values(items, local)
             case ast.Tuple(elts=items):
@@ -102,15 +141,15 @@ class PythonValues:
     def _operation(self, node: ast.expr, local: Mapping[str, Any]) -> Any:
         match node:
             case ast.UnaryOp(op=operation, operand=operand):
-                return OPERATORS[type(operation)](self._value(operand, local))
+                return _OPERATORS[type(operation)](self._value(operand, local))
             case ast.BinOp(left=left, op=operation, right=right):
-                return calculate(operation, self._value(left, local), self._value(right, local))
+                return _calculate(operation, self._value(left, local), self._value(right, local))
             case ast.BoolOp(op=operation, values=values):
                 return self._boolean(operation, values, local)
             case ast.Compare(left=left, ops=operations, comparators=others):
                 sides = self._values((left, *others), local)
                 pairs = zip(sides, operations, sides[1:], strict=False)
-                return all(OPERATORS[type(each)](one, other) for one, each, other in pairs)
+                return all(_OPERATORS[type(each)](one, other) for one, each, other in pairs)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 return self._value(body if self._value(test, local) else orelse, local)
         raise UnknownValueError
@@ -123,7 +162,7 @@ class PythonValues:
             case ast.Subscript(value=whole, slice=index):
                 return self._value(whole, local)[self._value(index, local)]
             case ast.Attribute(value=ast.Name(id=space), attr=name) if space in _NAMESPACES:
-                return self._lookup(name)
+                return self._lookup(ast.Name(id=name, ctx=ast.Load()))
             case ast.Attribute(value=whole, attr=name):
                 return self._value(whole, local)[name]
 
@@ -162,8 +201,29 @@ class PythonValues:
                     raise UnknownValueError
                 # What is joined, or put in place of each character.
                 texts = [text for one in arguments for text in (one if isinstance(one, list) else [one])]
-                if len(owner) * sum(len(text) for text in texts if isinstance(text, str)) > MOST_ITEMS:
+                if len(owner) * sum(len(text) for text in texts if isinstance(text, str)) > _MOST_CHARACTERS:
                     raise UnknownValueError
                 found = getattr(owner, name)(*arguments)
                 return list(found) if name in ("keys", "values", "items") else found
         raise UnknownValueError
+
+
+def _calculate(operation: ast.operator, left: Any, right: Any) -> Any:
+    """Return the result of an operation of Python.
+
+    Raises:
+        ArithmeticError: for a number or a text that is longer than any robot needs, before it is made.
+
+    """
+    sequences = [one for one in (left, right) if isinstance(one, str | list | tuple)]
+    numbers = [one for one in (left, right) if isinstance(one, int)]
+    checks: dict[type[ast.operator], Callable[[], bool]] = {
+        ast.Pow: lambda: not (abs(left) < _MOST_BASE and abs(right) < 100),
+        ast.Mult: lambda: bool(sequences),
+        ast.Add: lambda: sum(map(len, sequences)) > _MOST_CHARACTERS,
+        ast.Mod: lambda: isinstance(left, str) and _WIDTH.search(left) is not None,
+    }
+    is_huge = checks.get(type(operation), lambda: False)()
+    if is_huge or sum(one.bit_length() for one in numbers) > _MOST_BITS:
+        raise OverflowError
+    return _OPERATORS[type(operation)](left, right)
