@@ -187,7 +187,7 @@ def expand_and_lower(
     arguments = settings.arguments(loader, sink)
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant)
     lowered = lower(instance, sink, meshes)
-    # Meshes are looked for in the user's packages, the spec's, and then those of its modules.
+    # Meshes are looked for in the user's packages, the spec's, then those of its modules.
     resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages}, roots=loader.roots)
     for robot, unresolved in lowered.robots:
         robot.resource_resolver = resolver

@@ -36,26 +36,26 @@ class Limit(Enum):
     """
 
     CHARACTERS_READ = _Limit(
-        "characters in its files", 32 * 1024**2, "leave out files that it does not need, or compile parts of it apart"
+        "characters in its files", 32 * 1024**2, "remove files that it does not need, or compile parts of it separately"
     )
     VALUES = _Limit(
         "values and tags of raw XML, with every alias, 'for' and use of a module written out",
         500_000,
-        "repeat less, or compile parts of it apart",
+        "repeat less, or compile parts of it separately",
     )
     ENTRIES = _Limit(
         "links, joints, other entries and modules, each counted again for every module around it",
         30_000,
-        "repeat less, nest modules less deeply, or compile parts of it apart",
+        "repeat less, nest modules less deeply, or compile parts of it separately",
     )
     PAIRS = _Limit(
         "pairs of links whose collisions are disabled or enabled, counted as entries are",
         100_000,
-        "list whole links in 'no_default_collision_links', or compile parts of it apart",
+        "list whole links in 'no_default_collision_links', or compile parts of it separately",
     )
-    ROUNDS = _Limit("rounds of 'for'", 50_000, "repeat less, or compile parts of it apart")
+    ROUNDS = _Limit("iterations of 'for'", 50_000, "repeat less, or compile parts of it separately")
     CHARACTERS_MADE = _Limit(
-        "characters that expressions, 'for' and modules write", 16_000_000, "make shorter texts, or fewer of them"
+        "characters that expressions, 'for' and modules write", 16_000_000, "write shorter strings, or fewer of them"
     )
     STEPS = _Limit(
         "steps of expressions and patterns, where each item of a list that is looked through is one",
@@ -80,7 +80,7 @@ class Limit(Enum):
     TEMPLATE_CHARACTERS = _Limit(
         "characters that templates handle, in filters and calls as in the documents that they write",
         32 * 1024**2,
-        "handle shorter texts, or render fewer templates at once",
+        "use shorter strings, or render fewer templates at once",
     )
 
     # The key of a dict that every computed value looks up: Enum.__hash__ is a Python function, object's is not.

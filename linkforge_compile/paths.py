@@ -174,7 +174,7 @@ def searched_places(
     ):
         for searched, candidates in folders.items():
             candidate = next(candidates, None)
-            missing = f"not in {searched}" if is_folder(searched) else f"{searched}, which is no folder"
+            missing = f"not in {searched}" if is_folder(searched) else f"{searched}, which is not a folder"
             yield SearchedPlace(variable, str(candidate or missing), candidate)
         if not folders:
             yield SearchedPlace(variable, "not set", None)

@@ -71,7 +71,7 @@ class Roots:
 
     def reasons(self, path: Path) -> tuple[str, str]:
         """Return the notes for a path outside of the roots: how it leaves them, and what they are."""
-        return self.way_out(path), f"what may be read lies in {self}"
+        return self.way_out(path), f"files may be read only in {self}"
 
     def way_out(self, path: Path) -> str:
         """Return how a path leaves the roots, for a message.

@@ -41,7 +41,7 @@ class ShapeFiles:
         if path and is_file(path):
             return path
         is_other = path and exists(path)
-        raise UnreadableError("it is no regular file" if is_other else reason_not_found(self._robot, resource))
+        raise UnreadableError("it is not a regular file" if is_other else reason_not_found(self._robot, resource))
 
     def beside(self, folder: Path, name: str) -> Path:
         """Return the path that a file in a folder gives to another one, which may not exist; errors as for `find`."""

@@ -76,7 +76,7 @@ def test_a_refused_path_is_shown_with_its_target_and_readable_folders(tmp_path: 
     assert (diagnostic.span.line, diagnostic.span.column) == (4, 20)
     assert [note.message for note in diagnostic.notes] == [
         f"it leads to {os.path.realpath(tmp_path)}{os.sep}part.robot.yaml",
-        f"what may be read lies in {os.path.realpath(tmp_path)}{os.sep}cell",
+        f"files may be read only in {os.path.realpath(tmp_path)}{os.sep}cell",
     ]
 
 

@@ -57,7 +57,7 @@ def main() -> None:
         SPEC,
         {"segment": "0.17m:0.26m:4", "stand_height": "0.26m:0.34m:3"},
         score,
-        where="$(stand_height < 1.9 * segment)",  # or the legs are stretched out
+        where="$(stand_height < 1.9 * segment)",  # otherwise the legs are fully stretched
         jobs=2,
     )
     print("segment  stand  mass   knee torque  sag")

@@ -109,7 +109,7 @@ def check_topics(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:
 def _refusal(topic: str) -> str | None:
     plain = _SUBSTITUTION.sub("x", topic)
     if strange := _STRANGE.search(topic) or _BRACE.search(plain):
-        return f"'{strange[0]}' is not allowed" if strange[0] not in "{}" else "its braces hold no name"
+        return f"'{strange[0]}' is not allowed" if strange[0] not in "{}" else "its braces contain no name"
     if "~" in plain[1:] or (plain[0] == "~" and plain[1:2] not in {"", "/"}):
         return "'~' is allowed only at the start, before '/'"
     if "//" in plain:

@@ -98,7 +98,7 @@ def parse_side(name: str, word: str, arguments: Namespace, tree: GitTree | None 
     srdf: str | None = values[f"{name}_srdf"]
     require_file(f"--{name}-srdf", srdf)
     if word.lower().endswith((".srdf", ".srdf.xacro")):
-        raise UsageError(f"'{word}' is an SRDF; give it with its robot: --{name}-srdf {word}")
+        raise UsageError(f"'{word}' is an SRDF; pass it with its robot: --{name}-srdf {word}")
     packages = parse_packages(values[f"{name}_package"], f"--{name}-package")
     text = read_unseekable(word)
     file = word if tree is None else str(tree.path(word))

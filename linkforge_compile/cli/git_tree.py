@@ -138,7 +138,7 @@ def _require_file(tree: GitTree, spec: str) -> None:
     if path.is_file():
         return
     if path.is_dir():
-        raise UsageError(f"'{spec}' is a folder in revision '{tree.name}'; give a file in it")
+        raise UsageError(f"'{spec}' is a folder in revision '{tree.name}'; name a file in it")
     if path.is_symlink():
         target = os.readlink(path)  # noqa: PTH115 - as written
         raise UsageError(f"'{spec}' is a link to '{target}', which revision '{tree.name}' lacks")

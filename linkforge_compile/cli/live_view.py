@@ -124,7 +124,7 @@ def _report(state: State, arguments: argparse.Namespace) -> None:
     if not state.scene_version:
         print_status("there is no robot to show yet", arguments)
     elif not state.is_current:
-        print_status("the last robot without errors stays", arguments)
+        print_status("the last robot without errors remains", arguments)
     else:
         links, joints = count(len(scene["links"]), "link"), count(len(scene["joints"]), "joint")
         report_not_shown(not_reported(state.files.missing, state.diagnostics), arguments)

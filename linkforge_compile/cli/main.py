@@ -28,34 +28,34 @@ COMMANDS_BY_TASK = {
     },
     "write a spec": {
         "watch": "compile a spec, and again whenever one of its files changes",
-        "format": "format the white space of specs, and nothing else",
+        "format": "format the white space of specs",
         "params": "list the parameters and variants of a spec",
         "explain": "explain where a value of the finished robot comes from, or what a diagnostic means",
-        "where": "find what in a spec wrote a line of an output",
+        "where": "find the place in a spec that a line of an output comes from",
         "expand": "print a spec as one flat file, without modules, expressions, loops and defaults",
-        "collisions": "find the pairs of links that need no check for collisions, by sampling",
+        "collisions": "find the pairs of links that need no collision check, by sampling",
     },
     "look at a robot": {
         "tree": "print the kinematic tree of a robot: links, joints, ranges and masses",
         "graph": "draw the links and joints of a robot, with its modules as boxes: SVG, Graphviz or Mermaid",
-        "info": "print the figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
+        "info": "print the key figures of a robot: mass, reach, size, meshes, sensors, groups, parameters",
         "sweep": "compile one spec with many values: grids, random samples, tables; on all processors or a cluster",
     },
     "existing robots": {
         "import": "convert an existing URDF to a spec",
-        "migrate": "translate a xacro to specs: a module for each macro, proved to be the same robot",
+        "migrate": "translate a xacro to specs, with a module for each macro, proved to be the same robot",
         "diff": "compare two robots, specs or URDFs",
     },
     "builds": {
-        "formats": "list the output formats, with what each keeps and loses of a robot",
-        "deps": "list the files from which a robot is compiled",
-        "doctor": "print what is installed, which packages are found, and why a package:// is not",
+        "formats": "list the output formats, and which parts of a robot each keeps and omits",
+        "deps": "list the files that a robot is compiled from",
+        "doctor": "print what is installed, which packages are found, and why a package:// is not found",
         "matcher": "print the problem matcher for GitHub Actions",
     },
     "editors and shells": {
         "schema": "print the JSON Schema of specs, for editors",
         "lsp": "start the language server, as editors do",
-        "completion": "print the script with which bash, zsh or fish complete these commands",
+        "completion": "print the completion script for bash, zsh or fish",
     },
 }
 """The commands with their summaries, as `linkforge --help` groups them."""
@@ -66,19 +66,19 @@ COMMANDS = {name: summary for commands in COMMANDS_BY_TASK.values() for name, su
 _SUMMARY = "a declarative compiler for robots: YAML specs in; URDF, SRDF and other formats out"
 
 _FIRST_STEPS = """\
-Start with one of
+Start with one of these:
   linkforge init my_arm                            a folder for a new robot, with a first spec
   linkforge import arm.urdf -o arm.robot.yaml      the spec of an existing URDF
   linkforge migrate arm.urdf.xacro -o robots/      the specs of an existing xacro
 
 and then
   linkforge check arm.robot.yaml                   report its errors and warnings
-  linkforge view arm.robot.yaml                    show it in the browser, and follow each change
+  linkforge view arm.robot.yaml                    show it in the browser, and update it with each change
   linkforge compile arm.robot.yaml -o build/       write its URDF, and its SRDF if it has one
 
-`linkforge --help` lists all commands; `linkforge COMMAND --help` describes one, with examples. `linkforge doctor` tells
-what is installed, `linkforge explain CODE` what a diagnostic means. The documentation is in the folder docs of the
-sources, beginning with docs/tutorial.md.
+`linkforge --help` lists all commands; `linkforge COMMAND --help` describes one, with examples. `linkforge doctor` shows
+what is installed, and `linkforge explain CODE` what a diagnostic means. The documentation is in the folder docs of the
+sources; start with docs/tutorial.md.
 """
 
 
@@ -167,14 +167,14 @@ def _run_without_command(words: list[str]) -> int:
     for task, commands in COMMANDS_BY_TASK.items():
         lines += [f"{task}:", *(f"  {name:{width}}  {summary}" for name, summary in commands.items()), ""]
     lines += [
-        "`linkforge COMMAND --help` describes a command. Exit codes: 0 clean, 1 errors in the spec, 2 wrong usage,",
+        "`linkforge COMMAND --help` describes a command. Exit codes: 0 no errors, 1 errors in the spec, 2 wrong usage,",
         "70 a bug in linkforge.",
     ]
     parser.epilog = "\n".join(lines)
     parser.parse_known_args(words)
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
-    return parser.error(f"'{words[0]}' is no command{did_you_mean(words[0], COMMANDS)}")
+    return parser.error(f"'{words[0]}' is not a command{did_you_mean(words[0], COMMANDS)}")
 
 
 def _make_parser(program: str, summary: str, add_arguments: Callable[[argparse.ArgumentParser], object]) -> Parser:

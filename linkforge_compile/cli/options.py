@@ -94,8 +94,8 @@ def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = ""
     With `variants_help`, `--variant` may be given several times, and `variants` of the arguments is their list.
     """
     add_parameter_option(parser, "set a parameter of the spec, such as reach=0.7m")
-    about = "the variant of the spec whose values replace the defaults, or several, sim+lab, of which the last one"
-    about += " decides; -p replaces those of a variant"
+    about = "the variant of the spec whose values replace the defaults; sim+lab combines several, and the last one has "
+    about += "precedence; -p has precedence over variants"
     if variants_help:
         help_ = f"{about}; {variants_help}"
         parser.add_argument("--variant", metavar="NAME", dest="variants", action="append", default=[], help=help_)
@@ -152,7 +152,7 @@ def add_package_option(parser: argparse.ArgumentParser) -> None:
         dest="packages",
         action="append",
         default=[],
-        help="the folder of package://NAME/, which is used before any other place is searched",
+        help="the folder of package://NAME/, which has precedence over all other search paths",
     )
 
 

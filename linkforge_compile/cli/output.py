@@ -122,7 +122,7 @@ def resolve_output(path: Path) -> Path:
         return path  # a pipe such as /dev/stderr or >(…), which the system names `pipe:[42]`
     # What is still a link is part of a loop.
     if target is None or os.path.islink(target):  # noqa: PTH114 as in `roots`
-        what = f"'{path}' is a link that leads to itself, or that may not be followed"
+        what = f"'{path}' is a link that leads to itself, or that must not be followed"
         raise UsageError(f"{what}; write to another place")
     return Path(target)
 
@@ -142,7 +142,7 @@ def refuse_to_replace(sources: Iterable[Path], outputs: Iterable[Path | None]) -
             raise UsageError(f"'{path}' would be replaced, and the robot is made from it; write to another place")
         # Two outputs may go to one device, such as /dev/null.
         if target in targets and (target.is_file() or not target.exists()):
-            raise UsageError(f"'{path}' would be written twice, and the second replaces the first; give each a file")
+            raise UsageError(f"'{path}' would be written twice; write each output to its own file")
         targets.add(target)
 
 
@@ -180,7 +180,7 @@ def _write_errors(path: Path, target: Path) -> Iterator[None]:
 def _reason(error: OSError, target: Path) -> str:
     if error.errno == EBUSY:
         # Writing into the file in place instead could leave a part of it behind.
-        return f"{error.strerror}; where this file is mounted alone, mount its folder, for a file is replaced whole"
+        return f"{error.strerror}; if only this file is mounted, mount its folder instead, because files are replaced"
     blocked = next((folder for folder in target.parents if folder.exists() and not folder.is_dir()), None)
     return f"'{blocked.name}' is not a folder" if blocked else str(error.strerror)
 
@@ -228,6 +228,6 @@ def make_rules(outputs: Iterable[Path], inputs: Sequence[Path]) -> str:
 def _escape_for_make(path: Path, unwritable: re.Pattern[str] = _UNWRITABLE) -> str:
     name = path.as_posix()
     if found := unwritable.search(name):
-        raise UsageError(f"a depfile cannot hold '{name}', for it has {found[0]!r} in it; rename it")
+        raise UsageError(f"a depfile cannot contain '{name}', because it has {found[0]!r} in it; rename it")
     name = name.replace("$", "$$").replace("#", r"\#")
     return _COLON.sub(r"\\:", _BLANK.sub(r"\1\1\\\2", name))

@@ -91,7 +91,8 @@ def _head_of(spec: Path, text: str) -> Head:
     head = read_head(text)
     if head is None:
         raise UsageError(
-            f"'{spec}' does not begin with the command that imported it and its digests, so it is no imported spec; "
+            f"'{spec}' does not begin with the command that imported it and its digests, so it is not an imported "
+            f"spec; "
             "give the one that 'linkforge import' wrote, or import the robot into a new file; for migrated specs "
             "there is 'linkforge migrate --verify'"
         )

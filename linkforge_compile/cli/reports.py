@@ -43,7 +43,7 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
         *(["--format"] if is_product else []),
         choices=("text", "json", "github", "sarif"),
         default="text",
-        help="the form of diagnostics: text (default), json, github (annotations) or sarif",
+        help="the format of diagnostics: text (default), json, github (annotations) or sarif",
     )
     group.add_argument(
         "--select",
@@ -59,7 +59,7 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
         type=_parse_ignorable_codes,
         action="extend",
         default=[],
-        help="do not report these warnings and notes; codes or their beginnings, such as LF5,LF6003",
+        help="do not report these warnings and notes; codes or prefixes of codes, such as LF5,LF6003",
     )
     _add_raising_option(group, "--werror", ANY_CODE, "report warnings as errors")
     group.add_argument("-q", "--quiet", action="store_true", help="print errors only")
@@ -73,7 +73,7 @@ def add_report_options(parser: argparse.ArgumentParser, *, is_product: bool = Fa
 
 def add_strict_option(parser: argparse.ArgumentParser) -> None:
     """Add `--strict`, for commands with `add_report_options` that are about outputs."""
-    about = "fail, and write nothing, if an output cannot hold a part of the robot: warnings LF7 are errors"
+    about = "fail, and write nothing, if an output cannot represent a part of the robot: treat warnings LF7 as errors"
     _add_raising_option(parser, "--strict", OUTPUT_CODES, about)
 
 
@@ -271,7 +271,7 @@ def _parse_ignorable_codes(text: str) -> list[str]:
     for code in codes:
         severities = {one.severity for one in REGISTER.values() if one.id.startswith(code)}
         if severities == {Severity.ERROR}:
-            kind = "is an error" if code in REGISTER else "stands for errors only"
+            kind = "is an error" if code in REGISTER else "selects only errors"
             raise argparse.ArgumentTypeError(f"{code} {kind}, which cannot be ignored")
     return codes
 

@@ -99,9 +99,11 @@ def add_target_options(parser: argparse.ArgumentParser) -> None:
     about = "; ".join(f"{one.name}: {one.description}" for one in formats.FORMATS)
     default = default_format().name
     _add_formats(
-        parser, "--format", f"only this one, once more for another one (default on standard output: {default}); {about}"
+        parser,
+        "--format",
+        f"the format to write; repeat it for others (default on standard output: {default}); {about}",
     )
-    parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: that of the spec)")
+    parser.add_argument("--name", help="the name of the outputs in the folder of -o (default: the name of the spec)")
 
 
 def add_for_option(parser: argparse.ArgumentParser, about: str) -> None:
@@ -130,7 +132,7 @@ def refuse_formats_as_specs(words: Iterable[str], option: str) -> None:
     """Refuse the name of a format among the specs, as `--format urdf srdf` gives it; a file may have such a name."""
     names = {one.name for one in formats.FORMATS}
     if word := next((word for word in words if word in names and not Path(word).exists()), None):
-        raise UsageError(f"{option} takes one format, once more for another one: write '{option} {word}'")
+        raise UsageError(f"{option} takes one format; repeat it for others: write '{option} {word}'")
 
 
 def add_output_option(parser: argparse.ArgumentParser) -> None:
@@ -142,8 +144,8 @@ def add_output_option(parser: argparse.ArgumentParser) -> None:
         dest="outputs",
         action="append",
         default=[],
-        help=f"a folder for {written}, or a file that ends in {alternatives(_file_endings())}; "
-        "once more for the file of another format",
+        help=f"a folder for {written}, or a file that ends in {alternatives(_file_endings())}; repeat it for the "
+        f"file of another format",
     )
 
 

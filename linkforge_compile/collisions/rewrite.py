@@ -67,7 +67,7 @@ def file_to_rewrite(robot: Robot) -> SourceFile:
         raise CannotRewriteError(f"the pairs are written in several files, {' and '.join(names)}")
     (file,) = files
     if file.is_xml or file.path is None:
-        raise CannotRewriteError(f"'{names[0]}' is no spec in YAML; write one that uses it")
+        raise CannotRewriteError(f"'{names[0]}' is not a spec in YAML; write one that uses it")
     return file
 
 

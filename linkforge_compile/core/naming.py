@@ -93,7 +93,7 @@ def require_valid_characters(name: str, what: str, target: str) -> None:
     if not is_valid_name(name):
         raise RobotValidationError(
             ValidationErrorCode.INVALID_NAME,
-            f"{what} may hold letters, digits and '_', '-', '.', '/', found '{name}'",
+            f"{what} may contain only letters, digits and '_', '-', '.', '/', found '{name}'",
             target=target,
             value=name,
             field=("name",),

@@ -38,7 +38,11 @@ def render_first(diagnostics: Sequence[Diagnostic], *, colour: bool = False) -> 
     text = render_text((one for one in diagnostics if id(one) in shown), colour=colour)
     rest = [one for one in diagnostics if id(one) not in shown]
     text += f"… and {_counts(rest, Severity)} more\n" if rest else ""
-    return text + f"{_counts(losses, Severity)} of formats not shown while there are errors\n" if losses else text
+    return (
+        text + f"{_counts(losses, Severity)} about output formats not shown while there are errors\n"
+        if losses
+        else text
+    )
 
 
 def _shorten_floods(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:

@@ -130,7 +130,7 @@ class SpecBuilder:
         nodes: dict[str, YamlNode] = {}
         for name, node in parts:
             if name in nodes:
-                raise RobotGeneratorError(f"a spec holds one {kind} '{name}', found two")
+                raise RobotGeneratorError(f"a spec can have only one {kind} '{name}', found two")
             nodes[name] = node
         section = self.map_of(nodes)
         for entry in section if with_origins else ():

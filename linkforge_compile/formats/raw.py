@@ -128,7 +128,7 @@ def _sections(places: Places) -> Mapping[int, int]:
             sections.setdefault(places.begins[places.open[-1]], begin)
         elif kind == "instruction":
             target = f"'<?{piece['target']}'"
-            reason = f"raw XML holds the processing instruction {target}; most URDF readers refuse a file with one"
+            reason = f"raw XML contains the processing instruction {target}; most URDF readers refuse a file with one"
             raise _refused(reason, places, begin, piece)
         elif kind == "start" and len(places.open) >= MAX_NESTED_ELEMENTS:
             raise _refused(f"raw XML is nested more than {MAX_NESTED_ELEMENTS} elements deep", places, begin, piece)

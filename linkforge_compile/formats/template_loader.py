@@ -64,10 +64,10 @@ class FolderLoader(FileSystemLoader):
         if is_file(path):
             text, name = self.read(path), str(path)
             if is_xml(template) and not is_writable(text):
-                raise UnreadableError(path, "it holds a character that XML cannot")
+                raise UnreadableError(path, "it contains a character that XML does not allow")
         elif os.path.islink(path) and not exists(path):  # noqa: PTH114 it answers for what may not be looked at
             self.missing.append(path)
-            raise UnreadableError(path, "the link is broken: what it leads to is not there")
+            raise UnreadableError(path, "the link is broken: its target does not exist")
         else:
             self.missing.append(path)
             text, name, _ = super().get_source(environment, template)

@@ -109,7 +109,7 @@ class ElementReader:
                 ENDS_IN_A_BLANK.at(attribute.span, name=name, tag=self.element.tag, effect=effect)
             )
         if node is None:
-            raise CannotRepresentError(f"{name} is no finite number: '{attribute.value}'", attribute.span)
+            raise CannotRepresentError(f"{name} is not a finite number: '{attribute.value}'", attribute.span)
         return None if default is not None and float(attribute.value) == default else node
 
     def numbers(self, name: str, count: int, unit: Dimension | None = None) -> YamlList | None:
@@ -278,7 +278,7 @@ class ElementReader:
 
     def _require_no_text(self) -> None:
         if self._has_text_left():
-            raise self.cannot_represent("it holds text")
+            raise self.cannot_represent("it contains text")
 
     def _raw(self, child: XmlElement) -> YamlNode:
         rename = rename_in_raw if self.draft.is_urdf else rename_in_raw_srdf

@@ -110,7 +110,7 @@ def read_transmission(transmission: ElementReader, names: Names) -> YamlMap:
         ends = node.get(f"{tag}s")
         found = len(ends) if isinstance(ends, YamlMap) else 0
         if not found or (count and found != count):
-            reason = f"it has {found or 'no'} <{tag}>, and takes {count or 'at least one'}"
+            reason = f"it has {found or 'no'} <{tag}>, and requires {count or 'at least one'}"
             raise transmission.cannot_represent(reason)
     return node
 
@@ -121,7 +121,7 @@ def _ends(transmission: ElementReader, kind: type[TransmissionJoint | Transmissi
     for child in transmission.remaining(tag):
         name = child.get("name") or ""
         if not _NAME.fullmatch(name) or name in ends:
-            reason = f"a <{tag}> in it is named '{name}', which is no name or is there already"
+            reason = f"a <{tag}> in it is named '{name}', which is not a name or already exists"
             raise transmission.cannot_represent(reason)
         if name not in names.get(tag, (name,)):
             raise CannotRepresentError(f"there is no {tag} named '{name}'", child.attributes["name"].span)

@@ -25,7 +25,7 @@ _URDF_ENDING = ".urdf"
 XACRO = ".xacro"
 _XML_OF_ROBOTS = (_URDF_ENDING, ".srdf")
 _SCHEME = re.compile(r"([A-Za-z][\w+.-]+)://(.*)", re.DOTALL)
-_ZERO_BYTE = "no path holds a zero byte"
+_ZERO_BYTE = "a path cannot contain a zero byte"
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def _locate_file(site: PathSite, sink: Diagnostics) -> Target | None:
         return Target(Path(site.text))
     user = site.user
     if user.folder is None:
-        return _report_unusable(site, "it is relative, and this text lies in no folder", sink)
+        return _report_unusable(site, "it is relative, and this text is not in a folder", sink)
     path = follow(user.folder, site.text)
     package = user.package if user.package is not None and path.is_relative_to(user.package.folder) else None
     return Target(path, package)

@@ -342,5 +342,5 @@ def _why_not_plain(path: str, folder: Path | None) -> str | None:
     if not path or "\0" in path:
         return "and this is none"
     if folder is None and not Path(path).is_absolute():
-        return "and this text lies in no folder that it could be relative to"
+        return "and this text is not in a folder that it could be relative to"
     return None

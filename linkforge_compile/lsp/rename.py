@@ -47,7 +47,7 @@ def rename(
         return None
     local = _local_name(new, span.text or "", renaming)
     if renaming.is_of_expressions and not _EXPRESSION_NAME.fullmatch(local):
-        raise RefusedError(f"'{local}' is no name that expressions can use: letters, digits and '_'")
+        raise RefusedError(f"'{local}' is not a name that expressions can use: use letters, digits and '_'")
     edits = {path: [Edit(place, local) for place in listed] for path, listed in places.items()}
     texts = {path: apply_edits(listed[0].span.file, listed) for path, listed in edits.items()}
     for one in specs.compiled:
@@ -106,5 +106,5 @@ def _local_name(new: str, text: str, renaming: Renaming) -> str:
         raise RefusedError(f"the new name must end with '{after}', as the joint is named after its frame or module")
     local = new[len(before) : len(new) - len(after)]
     if not _PLAIN_NAME.fullmatch(local):
-        raise RefusedError(f"'{new}' is no name that can be written without quotes")
+        raise RefusedError(f"'{new}' is not a name that can be written without quotes")
     return local

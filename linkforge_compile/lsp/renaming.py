@@ -144,7 +144,7 @@ def _fixed_end(one: Occurrence) -> str:
     end = text.rpartition(")")[2] if one.is_computed else text
     is_name = one.name.endswith(end + one.suffix) if one.is_computed else text == one.written
     if one.span.file.is_xml:
-        raise RefusedError(f"the {one.kind} '{one.name}' is written in {one.span.file.shown}, which is no spec")
+        raise RefusedError(f"the {one.kind} '{one.name}' is written in {one.span.file.shown}, which is not a spec")
     if not end or not is_name:
         raise RefusedError(computed_name(one))
     return end

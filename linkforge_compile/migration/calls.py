@@ -291,7 +291,7 @@ class Calls(MacroCalls):
         """Return an argument of the robot; in a module, a parameter that gets it."""
         if name not in evaluator.arguments:
             if name not in evaluator.given:
-                raise CannotTranslateError(f"the argument '{name}', which is not declared before; give {name}:=VALUE")
+                raise CannotTranslateError(f"the argument '{name}', which is not declared before; pass {name}:=VALUE")
             evaluator.declare(name, None)
         symbol = evaluator.arguments[name]
         if symbol.constant is not UNSET:

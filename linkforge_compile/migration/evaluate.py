@@ -256,7 +256,7 @@ class Evaluator(ABC):
         symbol = next(same, None)
         if symbol is None:
             symbol = Symbol(wish, "variable", (constant(known),), known, MAP)
-            symbol.comment = f"from {address[0]}, which a spec does not read as it is" if is_literal(address) else ""
+            symbol.comment = f"from {address[0]}, which a spec cannot read directly" if is_literal(address) else ""
             context.file.symbols.append(symbol)
         return refer(symbol)
 

@@ -83,7 +83,7 @@ def translate_expression(text: str, names: Names) -> ast.expr:
     try:
         tree = ast.parse(f"({source})", mode="eval").body
     except SyntaxError:
-        raise CannotTranslateError(f"'${{{text}}}' is no expression") from None
+        raise CannotTranslateError(f"'${{{text}}}' is not an expression") from None
     try:
         return folded(_Translator(names, extensions, text).visit(tree))
     except CannotTranslateError:

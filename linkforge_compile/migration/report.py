@@ -104,17 +104,17 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
 
 def lines_of(figures: Figures) -> Iterator[str]:
     """Yield the lines of a report."""
-    proved = f"{figures.equal} of {_counted(figures.combinations, 'combination')} of its arguments are the same robot"
+    combinations = f"{figures.equal} of {_counted(figures.combinations, 'combination')}"
     unproved = f", {figures.unproved} cannot be compared" if figures.unproved else ""
     late = f", {figures.late} were not compared in the time" if figures.late else ""
-    yield f"proof       {proved}{unproved}{late}"
+    yield f"proof       the same robot for {combinations} of its arguments{unproved}{late}"
     if figures.varied or figures.settled:
         one_value = f"; with one value: {', '.join(figures.settled)}" if figures.settled else ""
         yield f"arguments   varied: {', '.join(figures.varied) or 'none'}{one_value}"
     if figures.renamed:
         names = ", ".join(f"{name} is {new}" for name, new in figures.renamed)
         yield f"renamed     {names}: launch files give the new names"
-    kept = f", {figures.kept} stay in xacro" if figures.kept else ""
+    kept = f", {figures.kept} remain in xacro" if figures.kept else ""
     macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
     yield f"macros      {figures.macros}: {macros}"
     yield f"properties  {figures.properties}: {_counted(figures.variables, 'variable')} and data, the others in place"

@@ -79,7 +79,7 @@ class Sources:
         declared, roots = self.loader.packages, self.loader.roots
         folder = next(folders_for_xacro(package, declared, self.main.parent, roots), None)
         if folder is None:
-            raise MissingFileError(f"no package named '{package}'; give --package {package}=FOLDER")
+            raise MissingFileError(f"no package named '{package}'; pass --package {package}=FOLDER")
         self._found[package] = folder.absolute()
         return folder.absolute()
 
@@ -149,7 +149,7 @@ def _read_unit(loader: _DataLoader, node: yaml.ScalarNode) -> float:
     text = str(loader.construct_scalar(node))
     value = value_with_tag(node.tag, text, SourceFile(node.tag, text).whole)
     if value is None:
-        raise yaml.MarkedYAMLError(problem=f"'{text}' after {node.tag} is no number", problem_mark=node.start_mark)
+        raise yaml.MarkedYAMLError(problem=f"'{text}' after {node.tag} is not a number", problem_mark=node.start_mark)
     return value
 
 

@@ -77,8 +77,8 @@ RAW = ("extra", "extra_attributes", "extra_inside")
 _FOR: Schema = {"$ref": "#/definitions/for"}
 _WHEN: Schema = {"$ref": "#/definitions/when"}
 _VALUE: Schema = {
-    "description": "The value here, once or as often as 'for' says.",
-    "markdownDescription": "The value here, once or as often as `for` says."
+    "description": "The value, once or for each iteration of 'for'.",
+    "markdownDescription": "The value, once or for each iteration of `for`."
     "\n\n```yaml\n{for: {i: 3}, value: joint_$(i)}\n```",
 }
 

@@ -28,7 +28,7 @@ def read_bytes(path: Path, limit: int, *, only_regular: bool) -> bytes | None:
         if path.is_dir():
             raise UnreadableError("it is a folder")
         if only_regular and path.exists() and not path.is_file():
-            raise UnreadableError("it is no regular file")
+            raise UnreadableError("it is not a regular file")
         with path.open("rb") as stream:
             # read(n) allocates n bytes, so ask for no more than the file has; a pipe or /proc reports size 0.
             content = stream.read(min(os.fstat(stream.fileno()).st_size or limit, limit) + 1)

@@ -242,7 +242,7 @@ def _explain_escape(failure: Failure) -> Diagnostic:
     backslash = text.rfind("\\", failure.began, failure.at + 1)
     if escape := _ESCAPE_OF_NUMBER.match(text, backslash):
         number = int(escape[0][2:], 16)
-        half = ", half of a character; write the whole character as it is" if 0xD800 <= number < 0xE000 else ""
+        half = ", half of a character; write the whole character" if 0xD800 <= number < 0xE000 else ""
         place = failure.marks.part(backslash, len(escape[0]))
         return codes.FORBIDDEN_CHARACTER.at(place, character=f"U+{number:04X}{half}")
     span = failure.marks.part(backslash, 2)

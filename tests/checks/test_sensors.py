@@ -45,10 +45,10 @@ def test_topics_that_ros_accepts(topic: str):
         ("a~b", "'~' is allowed only at the start, before '/'"),
         ("~imu", "'~' is allowed only at the start, before '/'"),
         ("~~", "'~' is allowed only at the start, before '/'"),
-        ("{node", "its braces hold no name"),
-        ("{}/imu", "its braces hold no name"),
-        ("{2d}/imu", "its braces hold no name"),
-        ("{a/b}", "its braces hold no name"),
+        ("{node", "its braces contain no name"),
+        ("{}/imu", "its braces contain no name"),
+        ("{2d}/imu", "its braces contain no name"),
+        ("{a/b}", "its braces contain no name"),
     ],
 )
 def test_topics_that_ros_refuses(topic: str, reason: str):

@@ -399,7 +399,7 @@ def test_a_file_that_cannot_be_replaced_is_reported_and_nothing_is_written_in_pa
     for name in ("robot.urdf", "robot.srdf"):
         (tmp_path / name).write_text("old")
     run = linkforge("compile", "-", "-o", "./", "--depfile", "-", cwd=tmp_path, stdin=PLANNED)
-    mounted = "busy; where this file is mounted alone, mount its folder, for a file is replaced whole"
+    mounted = "busy; if only this file is mounted, mount its folder instead, because files are replaced"
     assert (run.returncode, run.stdout) == (2, "")
     assert run.stderr == f"linkforge compile: cannot write 'robot.srdf': {mounted}\n"
     assert {path.name for path in tmp_path.iterdir()} == {"robot.urdf", "robot.srdf"}
@@ -511,17 +511,17 @@ def test_the_bytes_are_the_same_wherever_and_however_it_runs(pendulum: Path, tmp
         (("check", "--for", "mjfc"), "there is no format 'mjfc'; did you mean 'mjcf'?"),
         (
             ("compile", "swing.robot.yaml", "-o", ".", "--format", "urdf", "srdf"),
-            "--format takes one format, once more for another one: write '--format srdf'",
+            "--format takes one format; repeat it for others: write '--format srdf'",
         ),
-        (("check", "--for", "sdf", "mjcf"), "once more for another one: write '--for mjcf'"),
+        (("check", "--for", "sdf", "mjcf"), "repeat it for others: write '--for mjcf'"),
         (("deps", "swing.robot.yaml", "--for", "sdf", "mjcf"), "write '--for mjcf'"),
         (
             ("compile", "swing.robot.yaml", "--format", "srdf", "-o", "a.urdf"),
             "--format srdf does not go into 'a.urdf'",
         ),
         (("compile", "swing.robot.yaml", "length=1"), "write '-p length=1' to set a parameter"),
-        (("complie", "swing.robot.yaml"), "'complie' is no command; did you mean 'compile'?"),
-        (("--verbose",), "'--verbose' is no command"),
+        (("complie", "swing.robot.yaml"), "'complie' is not a command; did you mean 'compile'?"),
+        (("--verbose",), "'--verbose' is not a command"),
         (("check", "--a\x1b]0;title\x07\n.robot.yaml"), r"unrecognized arguments: --a\x1b]0;title\x07\n.robot.yaml"),
         (
             ("compile", "swing.robot.yaml", "--gazebo", "gz", "--gazebo", "classic"),

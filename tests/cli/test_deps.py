@@ -187,7 +187,7 @@ def test_a_name_that_no_makefile_can_hold_is_reported(cell: Path, capfd: pytest.
     (cell / "a;b.yaml").write_text("width: 2\n")
     (cell / "cell.robot.yaml").write_text(ROBOT.replace("table.yaml", "a;b.yaml"))
     assert main(["compile", "cell.robot.yaml", "-o", "robot.urdf", "--depfile", "robot.d"]) == 2
-    assert "a depfile cannot hold 'a;b.yaml', for it has ';' in it; rename it" in capfd.readouterr().err
+    assert "a depfile cannot contain 'a;b.yaml', because it has ';' in it; rename it" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("mark", ["=", "%"])
@@ -195,7 +195,7 @@ def test_an_output_name_that_make_or_ninja_cannot_read_is_reported(
     cell: Path, capfd: pytest.CaptureFixture[str], mark: str
 ):
     assert main(["compile", "cell.robot.yaml", "-o", f"reach{mark}2.urdf", "--depfile", "robot.d"]) == 2
-    assert f"a depfile cannot hold 'reach{mark}2.urdf', for it has {mark!r} in it" in capfd.readouterr().err
+    assert f"a depfile cannot contain 'reach{mark}2.urdf', because it has {mark!r} in it" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["a b.urdf", "a#b.urdf", "a$b.urdf", "a:b.urdf", "a'b.urdf", "ä.urdf"])
@@ -224,7 +224,7 @@ def test_a_depfile_called_by_a_dash_is_standard_output(cell: Path, capfd: pytest
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (("--depfile", "robot.d"), "--depfile tells what files are made from, so it takes -o"),
+        (("--depfile", "robot.d"), "--depfile lists what files are made from, so it takes -o"),
         (("-o", "robot.urdf", "--check", "--depfile", "robot.d"), "--check writes nothing"),
     ],
 )
@@ -240,7 +240,7 @@ def test_standard_output_is_the_target_of_no_rule(cell: Path, capfd: pytest.Capt
     assert main(["deps", "cell.robot.yaml", "-o", "-"]) == 2
     captured = capfd.readouterr()
     assert captured.out == ""
-    assert "a rule of Make says what files are made from, so it takes -o with a folder or a file" in captured.err
+    assert "a Make rule lists what files are made from, so it takes -o with a folder or a file" in captured.err
 
 
 @pytest.mark.parametrize(
@@ -281,7 +281,7 @@ def test_each_file_is_resolved_once_for_all_outputs(tmp_path: Path, monkeypatch:
 def test_one_output_does_not_replace_another(cell: Path, capfd: pytest.CaptureFixture[str], words: tuple[str, ...]):
     (cell / "cell.robot.yaml").write_text(ROBOT + "semantic: {groups: {all: {links: [base]}}}\n")
     assert main(["compile", "cell.robot.yaml", *words]) == 2
-    assert "would be written twice, and the second replaces the first; give each a file" in capfd.readouterr().err
+    assert "would be written twice; write each output to its own file" in capfd.readouterr().err
     assert not (cell / "out").exists()
 
 

@@ -193,7 +193,7 @@ def test_json_fits_its_schema(arms: Path):
         (["old.robot.yaml", "none.urdf"], "none.urdf"),
         (["a.urdf", "b.urdf", "reach:=1"], "nothing takes 'reach:=1': a URDF has no parameters"),
         (["a.urdf", "b.urdf", "--variant", "long"], "nothing takes '--variant long': a URDF has no variants"),
-        (["a.urdf", "b.srdf"], "'b.srdf' is an SRDF; give it with its robot: --after-srdf b.srdf"),
+        (["a.urdf", "b.srdf"], "'b.srdf' is an SRDF; pass it with its robot: --after-srdf b.srdf"),
         (["a.urdf", "new.robot.yaml", "--after-srdf", "b.srdf"], "'new.robot.yaml' has 'semantic' for it"),
         (["old.robot.yaml", "new.robot.yaml", "--tolerance", "-1"], "takes a number from 0 to below 1"),
     ],

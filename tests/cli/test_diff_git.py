@@ -128,8 +128,8 @@ def test_a_spec_that_was_renamed_is_compared_with_the_old_one(repository: Reposi
 @pytest.mark.parametrize(
     ("spec", "message"),
     [
-        ("robots", "'robots' is a folder in revision 'HEAD'; give a file in it"),
-        (".", "'.' is a folder in revision 'HEAD'; give a file in it"),
+        ("robots", "'robots' is a folder in revision 'HEAD'; name a file in it"),
+        (".", "'.' is a folder in revision 'HEAD'; name a file in it"),
         ("link.robot.yaml", "'link.robot.yaml' is a link to 'lib/gone.robot.yaml', which revision 'HEAD' lacks"),
         ("data/robots", "'data/robots' is not in revision 'HEAD'"),
         ("robots/arn.robot.yaml", "is not in revision 'HEAD'; did you mean 'arm.robot.yaml'?"),

@@ -75,7 +75,7 @@ def test_parameters_are_set_before(cell: Path):
             ("cell.robot.yaml", "parameters/x"),
             "there is no 'parameters' in the robot, which is finished; `linkforge params`",
         ),
-        (("cell.robot.yaml", "variables/x"), "which is finished; a value that uses one tells of it"),
+        (("cell.robot.yaml", "variables/x"), "which is finished; the value that uses it shows where it comes from"),
         (
             ("cell.robot.yaml", "frames/left_upper/origin"),
             "where a frame is a link and a fixed joint; look at 'joints/left_elbow/origin'",

@@ -118,7 +118,7 @@ def test_what_is_not_yaml_is_reported_as_by_check_and_not_written(folder: Path):
     [
         (["-", "arm.robot.yaml"], "takes - alone, for standard input, or files and folders"),
         (["arm.urdf"], "takes specs in YAML, and 'arm.urdf' is XML"),
-        (["/dev/null"], "takes files and folders, found '/dev/null'; give - for standard input"),
+        (["/dev/null"], "takes files and folders, found '/dev/null'; use - for standard input"),
     ],
 )
 def test_other_words_are_refused(folder: Path, words: list[str], expected: str):

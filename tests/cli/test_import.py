@@ -197,7 +197,7 @@ def test_a_mesh_next_to_the_urdf_but_not_to_the_spec_is_reported(arm, tmp_path: 
 
 def test_an_srdf_without_its_robot_is_refused(capfd: pytest.CaptureFixture[str]):
     assert main(["import", "arm.srdf.xacro"]) == 2
-    assert "give it with its robot: linkforge import ROBOT.urdf --srdf arm.srdf.xacro" in capfd.readouterr().err
+    assert "pass it with its robot: linkforge import ROBOT.urdf --srdf arm.srdf.xacro" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("words", [["reach:=1"], ["-p", "reach=1"], ["-p", "reach:=1"]])
@@ -248,7 +248,7 @@ def test_an_srdf_as_a_positional_argument_is_reported_with_its_option(
     words: list[str], robot: str, capfd: pytest.CaptureFixture[str]
 ):
     assert main(["import", *words]) == 2
-    remedy = f"give it with its robot: linkforge import {robot} --srdf arm.srdf"
+    remedy = f"pass it with its robot: linkforge import {robot} --srdf arm.srdf"
     assert f"'arm.srdf' is an SRDF; {remedy}" in capfd.readouterr().err
 
 

@@ -101,7 +101,7 @@ def test_quiet_is_silent_when_all_is_well(specs: Path):
         (("--ignore", "LF600O"), "no diagnostic has the code 'LF600O'; did you mean 'LF6"),
         (("--select", "E501"), "no diagnostic has the code 'E501'"),
         (("--ignore", "LF4102"), "LF4102 is an error, which cannot be ignored"),
-        (("--ignore", "LF11"), "LF11 stands for errors only, which cannot be ignored"),
+        (("--ignore", "LF11"), "LF11 selects only errors, which cannot be ignored"),
         (("--format", "xml"), "invalid choice: 'xml'"),
         (("-", "--all-variants"), "--all-variants takes files, not standard input"),
     ],

@@ -206,11 +206,11 @@ def test_a_form_that_only_a_person_can_change_is_refused(section: str, reason: s
 def test_standard_input_and_urdf_are_not_written(tmp_path: Path):
     done = linkforge("collisions", "-", "--write", cwd=tmp_path, stdin=ROBOT)
     assert done.returncode == 2
-    assert "'<stdin>' is no spec in YAML" in done.stderr
+    assert "'<stdin>' is not a spec in YAML" in done.stderr
     linkforge("compile", "-", "-o", "robot.urdf", cwd=tmp_path, stdin=ROBOT)
     done = linkforge("collisions", "robot.urdf", "--write", cwd=tmp_path)
     assert done.returncode == 2
-    assert "'robot.urdf' is no spec in YAML; write one that uses it" in done.stderr
+    assert "'robot.urdf' is not a spec in YAML; write one that uses it" in done.stderr
 
 
 def test_check_lists_what_is_out_of_date(tmp_path: Path):

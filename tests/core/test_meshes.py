@@ -321,8 +321,8 @@ def test_triangles_of_a_polygon_are_counted_before_they_are_made(face, monkeypat
         (b"f 1/1 -0/1 2/1", "line 5: the face has a vertex 0, but the file has 3"),
         (b"f 1 2 \\\n000", "line 5: the face has a vertex 0, but the file has 3"),
         (b"f 1/1 -4/1 2/1", "line 5: the face has a vertex -4, but the file has 3"),
-        (b"f 1 2 x", "line 5: 'x' is no number of a vertex"),
-        (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is no number of a vertex"),
+        (b"f 1 2 x", "line 5: 'x' is not a vertex coordinate"),
+        (b"f 1 2 3 1 " + b"9" * 5000, f"line 5: '{'9' * 40}' is not a vertex coordinate"),
     ],
 )
 def test_a_corner_without_a_vertex_is_reported_with_its_line(face, expected):

@@ -288,8 +288,8 @@ def test_the_keys_that_stand_everywhere_are_offered_with_what_they_mean(server: 
         completion.label: completion.description for completion in server.completions(f"{HEAD}joints:\n  elbow:\n    |")
     }
     assert found.keys() >= EVERYWHERE
-    assert "once for each item of a list" in found["for"]
-    assert "[rad]" in found["limits"] or "How far, how hard" in found["limits"]
+    assert "for each item of a list" in found["for"]
+    assert "[rad]" in found["limits"] or "Limits of its position" in found["limits"]
 
 
 def test_a_new_file_is_begun_with_the_first_lines_of_a_robot(server: LanguageServer):
@@ -301,7 +301,7 @@ def test_a_new_file_is_begun_with_the_first_lines_of_a_robot(server: LanguageSer
 HOVERS = {
     "links": ("li|nks: {}", ["The rigid bodies.", "inertial: {mass: 4 kg}"]),
     "a link": ("links:\n  ba|se: {visual: {}}", ["A rigid body"]),
-    "limits": ("joints: {elbow: {lim|its: {}}}", ["How far, how hard and how fast", "velocity: 90 deg/s"]),
+    "limits": ("joints: {elbow: {lim|its: {}}}", ["Limits of its position, effort and velocity", "velocity: 90 deg/s"]),
     "a unit": ("joints: {elbow: {limits: {eff|ort: 3 N}}}", ["torque [N*m] or force [N]", "50 N*m"]),
     "a word": ("joints: {elbow: {type: revo|lute}}", ["`revolute`: Turns about its axis between two limits."]),
     "a mass": ("links: {base: {inertial: {ma|ss: 4}}}", ["Mass of the link [kg].", "1.2 kg"]),
@@ -318,7 +318,7 @@ HOVERS = {
     "a module's file": ("modules: {arm: {u|se: arm.robot.yaml}}", ["or a vendor's `.urdf` or `.xacro`", "Required."]),
     "an override": ("modules: {arm: {over|ride: {}}}", ["`null` deletes", "joints: {elbow: {limits: {effort: 20}}}"]),
     "the semantic part": ("seman|tic: {groups: {}}", ["Becomes the SRDF."]),
-    "a sensor's kind": ("sensors: {front: {type: lid|ar}}", ["`lidar`: A laser scanner; says `lidar`."]),
+    "a sensor's kind": ("sensors: {front: {type: lid|ar}}", ["`lidar`: A laser scanner; settings in `lidar`."]),
 }
 
 

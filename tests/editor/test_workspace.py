@@ -336,7 +336,7 @@ def test_a_name_is_put_in_as_yaml_reads_it(server: LanguageServer, folder: Path)
 def test_the_command_tells_of_specs_with_errors_and_writes_once(tmp_path: Path):
     root = written(tmp_path)
     run = linkforge("schema", "--workspace", cwd=root)
-    expected = "names of faulty.robot.yaml may be missing; `linkforge check` tells why\n"
+    expected = "names of faulty.robot.yaml may be missing; `linkforge check` shows why\n"
     assert (run.returncode, run.stdout, run.stderr) == (0, "", f"{expected}wrote .linkforge/robot.schema.json\n")
     again = linkforge("schema", "--workspace", str(root), "-o", "here.json", cwd=root)
     assert again.stderr == f"{expected.replace('faulty.r', f'{root}/faulty.r')}wrote here.json\n"
@@ -369,7 +369,7 @@ def test_the_schema_of_a_folder_is_the_one_that_its_specs_name(tmp_path: Path):
     assert linkforge("schema", "--workspace", cwd=below).stderr == "../.linkforge/robot.schema.json is up to date\n"
     assert linkforge("schema", "--workspace", ".", cwd=below).stderr == "wrote .linkforge/robot.schema.json\n"
     stderr = linkforge("schema", "--workspace", cwd=root).stderr
-    assert stderr.startswith("'parts' has a schema of its own; `linkforge schema --workspace parts` renews it\n")
+    assert stderr.startswith("'parts' has its own schema; `linkforge schema --workspace parts` updates it\n")
     (root / ".linkforge" / "robot.schema.json").unlink()
     (below / "hand.robot.yaml").write_text(ARM)
     assert linkforge("schema", "--workspace", cwd=root).stderr == "wrote parts/.linkforge/robot.schema.json\n"

@@ -89,7 +89,7 @@ def has_tags(robot: Robot) -> bool:
 
 
 def is_sayable(robot: Robot) -> bool:
-    """Whether it has no two things of one name, interfaces with parameters say, where a spec holds one."""
+    """Whether it has no two things of one name, interfaces with parameters say, where a spec can have only one."""
     try:
         write_spec(robot)
     except RobotGeneratorError:

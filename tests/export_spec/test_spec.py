@@ -316,7 +316,7 @@ links: {a: }
 
 def test_two_things_of_one_name_cannot_be_written():
     sensor = Sensor("eye", SensorType.RAY, "a")
-    with pytest.raises(RobotGeneratorError, match="a spec holds one sensor 'eye', found two"):
+    with pytest.raises(RobotGeneratorError, match="a spec can have only one sensor 'eye', found two"):
         write_spec(Robot("r", links=[Link("a")], sensors=[sensor, sensor]))
     pair = CollisionPair("a", "b")
     with pytest.raises(RobotGeneratorError, match="one collision pair of 'a' 'b', found two"):

@@ -160,7 +160,7 @@ def test_losses_of_a_format_are_counted_while_there_are_errors(
     report = capsys.readouterr().err
     assert "did you mean 'rod'? [LF4102]" in report
     assert "LF7411" not in report
-    assert "1 warning, 1 note of formats not shown while there are errors\n" in report
+    assert "1 warning, 1 note about output formats not shown while there are errors\n" in report
     assert main([*words, "--quiet"]) == 1
     assert "not shown" not in capsys.readouterr().err
     assert main([*words, "--strict"]) == 1
@@ -183,7 +183,7 @@ def test_errors_of_one_spec_hide_no_losses_of_another_that_is_written(
         report = capsys.readouterr().err
         shown = [line.split(":")[0] for line in report.splitlines() if "MuJoCo does not limit velocities" in line]
         assert shown == ["good.robot.yaml"]
-        assert "1 warning, 1 note of formats not shown while there are errors\n" in report
+        assert "1 warning, 1 note about output formats not shown while there are errors\n" in report
     assert (tmp_path / "out" / "good.mjcf").is_file()
 
 

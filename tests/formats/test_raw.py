@@ -119,7 +119,7 @@ def test_raw_xml_that_is_none_is_refused(raw: str):
         (
             "<é/><?a b?>",
             4,
-            "raw XML holds the processing instruction '<?a'; most URDF readers refuse a file with one",
+            "raw XML contains the processing instruction '<?a'; most URDF readers refuse a file with one",
         ),
         ("\n" + "<a>" * 101, 298, "raw XML is nested more than 100 elements deep"),
     ],

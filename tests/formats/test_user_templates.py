@@ -526,7 +526,7 @@ def test_a_link_that_leads_out_is_followed_where_the_user_allows_it(tmp_path: Pa
     ("name", "content", "place", "reason"),
     [
         ("a.md", b"\xef\xbb\xbfa\nbc\xff", "2:3", "the byte 0xff is not UTF-8; save it as UTF-8"),
-        ("a.xml", b"<a>\x00</a>", "1:1", "it holds a character that XML cannot"),
+        ("a.xml", b"<a>\x00</a>", "1:1", "it contains a character that XML does not allow"),
         ("a.md", b"a" * (16 * 1024**2 + 1), "1:1", "it is larger than 16 MiB"),
     ],
     ids=["not UTF-8", "control character", "large"],
@@ -552,8 +552,7 @@ def test_a_broken_link_is_reported_at_the_link(text: str, tmp_path: Path):
         render_templates(ARM, tmp_path)
     path = tmp_path / "b.md.j2"
     assert {str(one) for one in refused.value.diagnostics} == {
-        f"{path}:1:1: error: template '{path}' cannot be read: "
-        "the link is broken: what it leads to is not there [LF7207]"
+        f"{path}:1:1: error: template '{path}' cannot be read: the link is broken: its target does not exist [LF7207]"
     }
     notes = [note.span.file.path for one in refused.value.diagnostics for note in one.notes if note.span]
     assert notes == ([tmp_path / "a.md.j2"] if text != "right" else [])

@@ -75,7 +75,7 @@ def test_a_module_that_is_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.yaml")
     sink = Diagnostics()
     expanded(tmp_path / "robot.robot.yaml", Loader(), sink)
-    assert [diagnostic.message for diagnostic in sink] == ["'pipe.yaml' cannot be read: it is no regular file"]
+    assert [diagnostic.message for diagnostic in sink] == ["'pipe.yaml' cannot be read: it is not a regular file"]
 
 
 def test_text_in_no_folder_uses_absolute_paths_only(tmp_path):
@@ -85,7 +85,7 @@ def test_text_in_no_folder_uses_absolute_paths_only(tmp_path):
     text = f"linkforge: 1\nname: a\nmodules: {{a: {{use: arm.robot.yaml}}, b: {{use: {absolute}}}}}\n"
     instance = expand(loader.parse(text, "<text>", None, sink), arguments_from_text((), sink), loader, sink)
     assert [diagnostic.message for diagnostic in sink] == [
-        "'arm.robot.yaml' cannot be found: it is relative, and this text lies in no folder"
+        "'arm.robot.yaml' cannot be found: it is relative, and this text is not in a folder"
     ]
     assert bases(instance) == {"b": f"{tmp_path.as_posix()}/"}
 

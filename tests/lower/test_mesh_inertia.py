@@ -102,7 +102,7 @@ def test_a_mesh_is_found_by_an_absolute_path_and_by_file_uri(tmp_path):
 def test_a_relative_mesh_of_a_text_that_lies_nowhere_is_nowhere():
     compilation = compile_text(f"linkforge: 1\nname: arm\n{link('{mesh: cube.stl}')}")
     assert messages(compilation) == [
-        "LF3006: 'cube.stl' cannot be found: it is relative, and this text lies in no folder"
+        "LF3006: 'cube.stl' cannot be found: it is relative, and this text is not in a folder"
     ]
 
 
@@ -188,7 +188,7 @@ def test_a_pipe_is_no_mesh(tmp_path):
         pytest.skip("no pipes here")
     os.mkfifo(tmp_path / "cube.stl")
     (message,) = messages(compile_file(spec(tmp_path, link("{mesh: cube.stl}"))))
-    assert message.endswith("it is no regular file")
+    assert message.endswith("it is not a regular file")
 
 
 def test_mujoco_weighs_the_meshes_of_the_good_case_as_we_do():

@@ -50,7 +50,7 @@ def at(path: Path, marked: str) -> str:
         # Keys
         (TWO_LINKS, "lin¦ks:", ["**links**", "The rigid bodies."]),
         (TWO_LINKS, "cyl¦inder: {", ["**cylinder**", "radius"]),
-        (ARM, "effo¦rt: 150 N*m", ["**effort**", "Greatest torque [N*m] or force [N]. Required."]),
+        (ARM, "effo¦rt: 150 N*m", ["**effort**", "Maximum torque [N*m] or force [N]. Required."]),
         (ARM, "mass¦: 4", ["`4 kg`", "**mass**: a number [kg] or a quantity such as '3 kg'"]),
         (MOBILE, "u¦se: ../06", ["**use**", "`package://NAME/…`"]),
         (LEG, "damp¦ing: 0.01", ["**damping**", "Viscous damping [N*m*s/rad]"]),
@@ -222,7 +222,7 @@ def test_keys_are_described_in_a_text_that_does_not_parse(editor: Editor, cell: 
     if "\n" in broken:
         before = ARM_TEXT.partition("  elbow")[0] + "  elbow:\n    "
     found = hover(editor, cell / "arm.robot.yaml", before + broken)
-    assert "Greatest torque [N*m] or force [N]." in found
+    assert "Maximum torque [N*m] or force [N]." in found
 
 
 @pytest.mark.parametrize(

@@ -83,8 +83,8 @@ def test_quoted_names_overrides_and_names_in_expressions_are_renamed(editor: Edi
     ("marks", "new", "reason"),
     [
         (("child: tip", "child: ¦tip"), "base", "there is a link 'base' already"),
-        (("child: tip", "child: ¦tip"), "my tip", "no name that can be written without quotes"),
-        (("child: tip", "child: ¦tip"), "on: x", "no name that can be written without quotes"),
+        (("child: tip", "child: ¦tip"), "my tip", "not a name that can be written without quotes"),
+        (("child: tip", "child: ¦tip"), "on: x", "not a name that can be written without quotes"),
     ],
 )
 def test_a_new_name_that_cannot_be_is_refused(
@@ -114,7 +114,7 @@ def test_a_name_in_text_that_plugins_read_is_refused_with_the_text(editor: Edito
 def test_a_name_of_a_urdf_is_refused(editor: Editor, robot: Path):
     (robot / "arm.urdf").write_text('<robot name="a"><link name="base"/></robot>')
     cell = CELL.replace("arm.robot.yaml", "arm.urdf").partition("semantic")[0] + "frames: {f: {parent: left_base}}\n"
-    with pytest.raises(JsonRpcException, match=r"written in .*arm\.urdf, which is no spec"):
+    with pytest.raises(JsonRpcException, match=r"written in .*arm\.urdf, which is not a spec"):
         renamed(editor, robot / "cell.robot.yaml", cell.replace("left_base", "left_¦base"), "left_foot")
 
 

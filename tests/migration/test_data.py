@@ -33,7 +33,7 @@ def test_data_that_a_spec_cannot_read_becomes_a_variable_that_is_a_map(tmp_path:
     assert (
         """\
 variables:
-  # from ../limits.yaml, which a spec does not read as it is
+  # from ../limits.yaml, which a spec cannot read directly
   limits: {elbow: {upper: 2.5}, wrist: {upper: 0.5, note: $$(none)}}
 """
         in made.robot
@@ -119,7 +119,7 @@ def test_a_file_that_is_no_yaml_is_told_with_its_place(tmp_path: Path):
     (tmp_path / "sizes.yaml").write_text("a: [1\n", "utf-8")
     write(tmp_path, robot="""<link name="${xacro.load_yaml('sizes.yaml')['a']}"/>""")
     ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
-    assert "sizes.yaml' is no YAML: expected ',' or ']', but got '<stream end>' (line 2, column 1), in" in ran.stderr
+    assert "sizes.yaml' is not YAML: expected ',' or ']', but got '<stream end>' (line 2, column 1), in" in ran.stderr
 
 
 def test_a_vector_that_is_a_text_of_data_is_split(tmp_path: Path):

@@ -27,7 +27,7 @@ def test_the_command_writes_specs_and_prints_a_report(tmp_path: Path):
     write(tmp_path, robot=ROBOT)
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 0
-    assert "proof       2 of 2 combinations of its arguments are the same robot\n" in ran.stdout
+    assert "proof       the same robot for 2 of 2 combinations of its arguments\n" in ran.stdout
     assert "macro 'paint' cannot be a module: it has no links and joints" in ran.stderr  # LF8041
     text = (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")
     assert text.startswith("# linkforge migrate ../robot.xacro -o .\n")
@@ -103,7 +103,7 @@ def test_the_report_as_json(tmp_path: Path):
 def test_a_file_that_is_none_is_wrong_usage(tmp_path: Path):
     ran = linkforge("migrate", "nothing.xacro", cwd=tmp_path)
     assert ran.returncode == 2
-    assert "'nothing.xacro' is no file" in ran.stderr
+    assert "'nothing.xacro' is not a file" in ran.stderr
 
 
 def test_the_example_of_the_docs_is_what_the_command_writes(tmp_path: Path):
@@ -227,7 +227,7 @@ def test_a_draft_is_written_although_it_is_another_robot(tmp_path: Path, monkeyp
     assert not (tmp_path / "specs").exists()
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--draft", cwd=tmp_path)
     assert ran.returncode == 1
-    assert "proof       0 of 1 combination of its arguments are the same robot\n" in ran.stdout
+    assert "proof       the same robot for 0 of 1 combination of its arguments\n" in ran.stdout
     draft = "wrote specs/robot.robot.yaml, a draft that is not proved; mend it, and run this again with --verify\n"
     assert ran.stderr.endswith(draft)
     assert "base: {}" in (tmp_path / "specs/robot.robot.yaml").read_text("utf-8")

@@ -173,7 +173,7 @@ def test_files_have_limits_of_their_size(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_pipe_is_not_read(tmp_path: Path):
     os.mkfifo(tmp_path / "a.stl")
     (missing,) = files_of(tmp_path, "a.stl").missing
-    assert missing.reason == "it is no regular file"
+    assert missing.reason == "it is not a regular file"
 
 
 def test_textures_of_materials_are_files_of_the_scene(tmp_path: Path):

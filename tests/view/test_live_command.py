@@ -47,7 +47,7 @@ def test_each_change_is_compiled_and_printed_until_ctrl_c(viewer: Viewer, folder
     spec = folder / "arm.robot.yaml"
     spec.write_text(SPEC.replace("sphere", "spere"))
     fault = "arm.robot.yaml:4:25: error: 'spere' is not a key of a visual; did you mean 'sphere'? [LF2101]"
-    viewer.wait_for("arm.robot.yaml changed", fault, "the last robot without errors stays", WATCHING)
+    viewer.wait_for("arm.robot.yaml changed", fault, "the last robot without errors remains", WATCHING)
     spec.write_text(SPEC)
     viewer.wait_for("arm.robot.yaml changed", "shows arm: 1 link, no joints", WATCHING)
     body, head = json.dumps({"parameters": {"reach": "3 m"}}).encode(), {"Content-Type": "application/json"}

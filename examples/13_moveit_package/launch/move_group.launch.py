@@ -15,7 +15,7 @@ from moveit_configs_utils.launches import (
 
 
 def generate_launch_description() -> LaunchDescription:
-    # The files are config/robot.urdf, config/robot.srdf and those that every robot's configuration has.
+    # Every MoveIt configuration has config/robot.urdf, config/robot.srdf and the same other files.
     moveit = MoveItConfigsBuilder("robot", package_name="picker_moveit_config").to_moveit_configs()
     controllers = str(moveit.package_path / "config" / "ros2_controllers.yaml")
     return LaunchDescription(
@@ -25,7 +25,7 @@ def generate_launch_description() -> LaunchDescription:
                 package="controller_manager",
                 executable="ros2_control_node",
                 parameters=[controllers],
-                # The URDF is what robot_state_publisher publishes. ROS 2 Humble needs moveit.robot_description as well.
+                # robot_state_publisher publishes the URDF. ROS 2 Humble needs moveit.robot_description as well.
                 remappings=[("/controller_manager/robot_description", "/robot_description")],
             ),
             generate_spawn_controllers_launch(moveit),

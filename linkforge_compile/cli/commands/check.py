@@ -44,11 +44,11 @@ examples:
   linkforge check                                   every spec below, except in hidden folders, build, install and log
   linkforge check arm.robot.yaml hardware:=mock
   linkforge check --all-variants arm.robot.yaml     with the defaults and with each of its variants
-  linkforge check --for mjcf --strict arm.robot.yaml    what MJCF cannot hold of it, as errors
+  linkforge check --for mjcf --strict arm.robot.yaml    the parts that MJCF cannot represent, as errors
   linkforge check --format github *.robot.yaml      as annotations of a pull request, on standard output
   linkforge check --ignore LF5003 arm.robot.yaml    without these warnings; --select LF5 reports only those
-  linkforge check --watch                           again whenever a file changes; Ctrl-C ends
-  linkforge check --fix                             write what is certain, such as '$(reach)' for '${reach}'
+  linkforge check --watch                           again whenever a file changes, until Ctrl-C
+  linkforge check --fix                             apply safe fixes, such as '$(reach)' for '${reach}'
 """
 
 
@@ -65,15 +65,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--all-variants", action="store_true", help="check the defaults and every variant of each spec, in one report"
     )
     parser.add_argument(
-        "--fix", action="store_true", help="write the safe corrections into the files, then report what remains"
+        "--fix", action="store_true", help="apply the safe fixes to the files, then report the remaining diagnostics"
     )
     parser.add_argument(
         "--watch", action="store_true", help="check again whenever one of the files changes, until Ctrl-C"
     )
     parser.add_argument("--diff", action="store_true", help="with --fix, print what would change, and write no file")
-    add_spec_options(parser, variants_help="once more for another one, in the same report")
+    add_spec_options(parser, variants_help="repeat it to check others in the same report")
     add_format_options(parser)
-    add_for_option(parser, "report what this output format cannot hold, not URDF and SRDF; once more for another one")
+    add_for_option(
+        parser, "report what this output format cannot represent, instead of URDF and SRDF; repeat it for others"
+    )
     add_report_options(parser, is_product=True)
     add_strict_option(parser)
 

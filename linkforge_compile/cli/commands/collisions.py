@@ -41,19 +41,19 @@ MAX_JOBS = 256
 """Each process has a copy of the robot in memory."""
 
 _EXAMPLES = """\
-The reasons are those of MoveIt's Setup Assistant: Adjacent, Default (in collision in the default pose), Always and
-Never. Pairs with other reasons, such as User, stay. A module that has pairs of its own is not sampled inside. It needs
-Pinocchio and coal: pip install 'linkforge-compile[collisions]'.
+The reasons are those of the MoveIt Setup Assistant: Adjacent, Default (in collision in the default pose), Always and
+Never. Pairs with other reasons, such as User, are not changed. The pairs inside a module that lists its own are not
+sampled. It requires Pinocchio and coal: pip install 'linkforge-compile[collisions]'.
 
 examples:
   linkforge collisions arm.robot.yaml                    print the section `disabled_collisions`
-  linkforge collisions arm.robot.yaml --samples 100000   of more samples, for pairs that seldom collide
-  linkforge collisions arm.robot.yaml --write            put it into arm.robot.yaml, and keep its comments
+  linkforge collisions arm.robot.yaml --samples 100000   with more samples, for pairs that rarely collide
+  linkforge collisions arm.robot.yaml --write            write it to arm.robot.yaml, and keep its comments
   linkforge collisions arm.robot.yaml --check            in CI: exit code 1 if --write would change anything
-  linkforge collisions robots/ --check                   each spec of a folder that has pairs, modules first
+  linkforge collisions robots/ --check                   each spec in a folder that has pairs, modules first
   linkforge collisions cell.robot.yaml --all             sample the pairs inside modules as well
-  linkforge collisions arm.robot.yaml --pose arm/home    what collides in state `home` of group `arm`; exit code 1 if
-                                                         a pair does that planners check
+  linkforge collisions arm.robot.yaml --pose arm/home    the links that collide in state `home` of group `arm`;
+                                                         exit code 1 if planners check such a pair
 """
 
 
@@ -64,10 +64,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml, or folders; - for standard input"
     )
     parser.add_argument(
-        "--samples", metavar="N", type=_samples, help=f"how many random positions (default: {DEFAULT_SAMPLES})"
+        "--samples", metavar="N", type=_samples, help=f"the number of random positions (default: {DEFAULT_SAMPLES})"
     )
     parser.add_argument("--seed", metavar="N", type=_seed, help="the seed of the positions (default: 0)")
-    parser.add_argument("--jobs", metavar="N", type=_jobs, help="how many processes (default: one a processor)")
+    parser.add_argument("--jobs", metavar="N", type=_jobs, help="the number of processes (default: one per processor)")
     parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
     output = parser.add_mutually_exclusive_group()
     output.add_argument("--write", action="store_true", help="change the section in the spec instead of printing it")
@@ -79,8 +79,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="poses",
         action="append",
         default=[],
-        help="print what collides in a state of a group, or in STATE of every group that has it, without sampling; once"
-        " more for another one",
+        help="print the links that collide in a state of a group, or in STATE of every group that has it, without "
+        "sampling; repeat it for others",
     )
     add_spec_options(parser)
     add_report_options(parser)
@@ -135,7 +135,7 @@ def _in_order(found: FoundSpecs, assignments: list[str], arguments: argparse.Nam
 
 
 def _check_poses(spec: str, assignments: list[str], arguments: argparse.Namespace) -> int:
-    """Print what collides in the states that the options name; FAULTY_SPEC if a pair does that planners check."""
+    """Print what collides in the states that the options name; FAULTY_SPEC if planners check such a pair."""
     are_given = {name: getattr(arguments, name) is not None for name in ("samples", "seed", "jobs")}
     are_given |= {name: getattr(arguments, name) for name in ("all", "write", "check")}
     if other := next((name for name, is_given in are_given.items() if is_given), None):

@@ -41,14 +41,14 @@ examples:
   linkforge compile arm.robot.yaml                      URDF to standard output
   linkforge compile arm.robot.yaml -o build/            build/arm.urdf, and build/arm.srdf if it has `semantic`
   linkforge compile arm.robot.yaml -o arm.urdf          one file
-  linkforge compile arm.robot.yaml -o build/ --format urdf --format mjcf     these of what `linkforge formats` lists
+  linkforge compile arm.robot.yaml -o build/ --format urdf --format mjcf     formats from `linkforge formats`
   linkforge compile arm.robot.yaml --format moveit -o src/                   src/arm_moveit_config/config/
   linkforge compile arm.robot.yaml --format moveit -o src/my_moveit_config   src/my_moveit_config/config/
   linkforge compile arm.robot.yaml -p reach=0.7m        with a parameter; reach:=0.7m is the same
   linkforge compile arm.robot.yaml --gazebo classic     with sensors for Gazebo Classic
   linkforge compile arm.robot.yaml --variant sim        with the values of one of its variants
   linkforge compile arm.robot.yaml --variant sim --variant lab -o build/    build/arm_sim.urdf and build/arm_lab.urdf
-  linkforge compile arm.robot.yaml --variant sim+lab    with the values of two variants; the last one decides
+  linkforge compile arm.robot.yaml --variant sim+lab    with the values of two variants; the last one has precedence
   linkforge compile arm.robot.yaml -o build/ --source-map   and the source of each line, in build/arm.urdf.map.json
   linkforge compile arm.robot.yaml -o urdf/ --check     write nothing; fail if urdf/arm.urdf is out of date
   linkforge compile arm.robot.yaml -o arm.urdf --depfile arm.urdf.d     and its dependencies, for Make and Ninja
@@ -78,7 +78,7 @@ def add_build_arguments(parser: argparse.ArgumentParser, specs_help: str) -> Non
     parser.add_argument(
         "--source-map",
         action="store_true",
-        help="write FILE.map.json beside each file, with which `linkforge where FILE:LINE` finds what wrote a line",
+        help="write FILE.map.json beside each file, from which `linkforge where FILE:LINE` finds the source of a line",
     )
     parser.add_argument(
         "--template",
@@ -88,19 +88,17 @@ def add_build_arguments(parser: argparse.ArgumentParser, specs_help: str) -> Non
     parser.add_argument(
         "--depfile",
         metavar="FILE",
-        help="write the dependencies of the output as a rule of Make, for a build to read; - for standard output",
+        help="write the dependencies of the output as a Make rule, for build systems; - for standard output",
     )
     parser.add_argument(
         "--installed-in",
         metavar="[FORMAT=]FOLDER",
         action="append",
         default=[],
-        help="the final folder of the outputs, from which relative paths of meshes start (default: that of -o); once "
-        "more for that of another format, such as sdf=share/arm/sdf",
+        help="the final folder of the outputs, from which relative paths of meshes start (default: that of -o); "
+        "repeat it for another format, such as sdf=share/arm/sdf",
     )
-    add_spec_options(
-        parser, variants_help="once more for another one, each with outputs NAME_VARIANT in the folder of -o"
-    )
+    add_spec_options(parser, variants_help="repeat it for others, each with outputs NAME_VARIANT in the folder of -o")
     add_format_options(parser)
     add_report_options(parser)
     add_strict_option(parser)
@@ -179,7 +177,7 @@ def _parse_request(
     if arguments.check:
         targets.require_files("--check", "compares with files")
     if arguments.depfile is not None:
-        targets.require_files("--depfile", "tells what files are made from")
+        targets.require_files("--depfile", "lists what files are made from")
         if arguments.check:
             raise UsageError("--check writes nothing, so there is no --depfile with it")
     return BuildRequest(spec, assignments, targets, templates, variant)

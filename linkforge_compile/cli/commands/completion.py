@@ -10,13 +10,13 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-A shell then completes commands, options and their values, specs, NAME:=VALUE with the parameters of the spec on the
+The shell then completes commands, options and their values, specs, NAME:=VALUE with the parameters of the spec on the
 line, --variant with its variants, and the paths and codes of `explain`.
 
 examples:
   linkforge completion bash > linkforge.bash    the script, in a file
 
-once, for every new shell:
+once, to enable it in every new shell:
   bash, with its package bash-completion:
     mkdir -p ~/.local/share/bash-completion/completions
     linkforge completion bash > ~/.local/share/bash-completion/completions/linkforge
@@ -27,7 +27,7 @@ once, for every new shell:
     mkdir -p ~/.config/fish/completions
     linkforge completion fish > ~/.config/fish/completions/linkforge.fish
 
-for this shell alone:
+only for this shell:
   eval "$(linkforge completion bash)"
   eval "$(linkforge completion zsh)"
   linkforge completion fish | source

@@ -34,19 +34,19 @@ if TYPE_CHECKING:
 FORMATS = ("make", "json")
 
 _EXAMPLES = """\
-It lists the spec, the files that it includes and uses, files of values, xacro files, meshes from which an inertia is
-computed, the meshes of an MJCF, and the meshes and textures of an SDF with --meshes file; and linkforge's own templates
-of the format, and its version. The format is URDF, unless -o or --for name other files.
+It lists the spec, the files that it includes and uses, data files, xacro files, meshes whose inertia is computed, the
+meshes of an MJCF, and the meshes and textures of an SDF with --meshes file; and linkforge's own templates of the
+format, and its version. The format is URDF, unless -o or --for name other files.
 
 examples:
   linkforge deps arm.robot.yaml                       arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/arm.urdf     build/arm.urdf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o build/ --for mjcf  build/arm.mjcf: arm.robot.yaml ...
   linkforge deps arm.robot.yaml -o arm.sdf --meshes file    arm.sdf: arm.robot.yaml ... meshes/hand.stl
-  linkforge deps arm.robot.yaml --format json         for other tools, also of a spec with errors
+  linkforge deps arm.robot.yaml --format json         for other tools, also for a spec with errors
 
-In JSON, "files" are those of the robot, "unread" those that could not be read, and "linkforge" its own. For a spec with
-errors, which has no output, no rule of Make is printed.
+In JSON, "files" are the files of the robot, "unread" those that could not be read, and "linkforge" the compiler's own.
+For a spec with errors, which has no output, no Make rule is printed.
 """
 
 
@@ -55,8 +55,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
     add_output_option(parser)
-    parser.add_argument("--format", choices=FORMATS, default="make", help="a rule of Make (default), or JSON")
-    add_for_option(parser, "the rule is for the outputs of this format, once more for another one")
+    parser.add_argument("--format", choices=FORMATS, default="make", help="a Make rule (default), or JSON")
+    add_for_option(parser, "the outputs of this format; repeat it for others")
     add_spec_options(parser)
     add_format_options(parser)
     add_report_options(parser)
@@ -77,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif not is_faulty:
         from linkforge_compile.cli.output import inputs_of, make_rules
 
-        targets.require_files("a rule of Make", "says what files are made from")
+        targets.require_files("a Make rule", "lists what files are made from")
         inputs = inputs_of(compilation.files, targets.template_folders)
         write_to_stdout(make_rules(_outputs(targets, compilation), inputs))
     return FAULTY_SPEC if is_faulty else OK

@@ -25,12 +25,13 @@ DIFFERENT, NO_ROBOT = 1, 2
 
 _EXAMPLES = """\
 A and B are specs, URDFs of any name or xacros. `-p` sets a parameter of each robot that has it, and `--variant` that of
-specs; `--before` and `--after` set one of A or B alone, and have precedence. A spec is compared with a URDF as the URDF
-that it compiles to. The semantic part of a URDF is its SRDF, given by `--before-srdf` and `--after-srdf`; without one
-that part is not compared, and the output says so. Only errors are reported; use `linkforge check` for the rest.
-With `--git`, A and all that it includes are read as they are in a revision, from the repository that holds A; B may be
-left out if it is the same file, as with `--before-package` and `--after-package`.
-Exit codes: 0 for the same robot, 1 for a different one, 2 for wrong usage and for an input that is no robot.
+specs; `--before` and `--after` set a parameter of only A or B, and have precedence. To compare a spec with a URDF, it
+is compiled to a URDF first. The semantic part of a URDF is its SRDF, given by `--before-srdf` and `--after-srdf`;
+without an SRDF, that part is not compared, and the output says so. Only errors are reported; use `linkforge check` for
+the rest.
+With `--git`, A and all files that it includes are read from a revision of its repository. You can omit B if it is the
+same file; the same applies to `--before-package` and `--after-package`.
+Exit codes: 0 if the robots are the same, 1 if they differ, 2 for wrong usage or an input that is not a robot.
 
 examples:
   linkforge diff old.robot.yaml new.robot.yaml
@@ -38,10 +39,10 @@ examples:
   linkforge diff arm.urdf.xacro arm.robot.yaml --before reach:=0.7 --tolerance 1e-9
   linkforge diff arm.robot.yaml arm.robot.yaml --before reach=0.7m --after reach=0.9m
   linkforge diff arm.robot.yaml arm.robot.yaml --after-variant sim
-  linkforge diff arm.robot.yaml --git HEAD~1            as it was in a revision of its git repository, and as it is
+  linkforge diff arm.robot.yaml --git HEAD~1            as it was in a git revision, compared with now
   linkforge diff arm.robot.yaml --before-package ur_description=../ur_description_2.1
   linkforge diff old.urdf new.urdf --json
-  linkforge diff arm.robot.yaml --git main --html -o diff.html       both robots over each other, changes in colors
+  linkforge diff arm.robot.yaml --git main --html -o diff.html      both robots over each other, changes in color
   xacro arm.urdf.xacro | linkforge diff - arm.robot.yaml
 """
 
@@ -55,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="as JSON, for tools")
     form.add_argument(
-        "--html", action="store_true", help="as a page with both robots over each other, which the browser opens"
+        "--html", action="store_true", help="as a page that shows both robots over each other, opened in the browser"
     )
     parser.add_argument("-o", "--output", metavar="FILE.html", help="write the page of --html to this file")
     parser.add_argument(
@@ -63,25 +64,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_tolerance,
         default=None,
         metavar="T",
-        help="equal are poses within T metres and T radians, and other numbers within the relative error T (1e-6)",
+        help="ignore differences of poses up to T metres and radians, of other numbers up to T times them (1e-6)",
     )
-    parser.add_argument("--git", metavar="REV", help="read A as of this revision of git, such as HEAD~1 or a branch")
+    parser.add_argument("--git", metavar="REV", help="read A from this git revision, such as HEAD~1 or a branch")
     for side in SIDES:
         parser.add_argument(
             f"--{side}",
             metavar="NAME=VALUE",
             action="append",
             default=[],
-            help=f"set a parameter of the robot {side} alone",
+            help=f"set a parameter only for the robot {side}",
         )
         parser.add_argument(
             f"--{side}-package",
             metavar="NAME=PATH",
             action="append",
             default=[],
-            help=f"the folder of package://NAME/ for the robot {side} alone",
+            help=f"the folder of package://NAME/ only for the robot {side}",
         )
-        parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant of the robot {side} alone")
+        parser.add_argument(f"--{side}-variant", metavar="NAME", help=f"the variant only of the robot {side}")
         parser.add_argument(f"--{side}-srdf", metavar="SRDF", help=f"the SRDF of the robot {side}, which is a URDF")
     add_spec_options(parser)
     add_format_options(parser, [URDF])

@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-Without arguments: the versions of linkforge and of what it needs, the optional extras, the variables that it reads and
-the ROS packages that it finds. With packages or paths: each place where they are looked for, in order. With a spec,
-they are looked for as from it, with the `packages` that it declares; without packages or paths, those that it names.
-Exit code 1 if one of them is not found.
+Without arguments, it prints the versions of linkforge and its dependencies, the optional extras, the environment
+variables that it reads and the ROS packages that it finds. With packages or paths, it prints each place that is
+searched, in order. With a spec, the search is the same as from that spec, with the `packages` that it declares, and by
+default for the packages that it uses. The exit code is 1 if one of them is not found.
 
 examples:
   linkforge doctor

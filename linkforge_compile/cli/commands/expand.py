@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 The result has no modules, parameters, expressions, loops or defaults, and compiles to the same URDF and SRDF. A comment
-on each part says where it was written. Relative paths of meshes are those of the compiled robot, so keep the file
-beside the spec.
+on each part shows where it was written. Relative mesh paths are those of the compiled robot, so keep the file beside
+the spec.
 
 examples:
   linkforge expand cell.robot.yaml
@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge expand [options] SPEC [NAME:=VALUE ...]"
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file instead of standard output")
     add_spec_options(parser)
     add_report_options(parser)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.ros2_controllers.origins import Explained, Origin
 
 _EXAMPLES = """\
-PATH is the path of the value in the finished robot, with the language's keys in their long form and final names.
+PATH is the path of the value in the finished robot, with keys in their long form and final names.
 
 examples:
   linkforge explain cell.robot.yaml joints/left_elbow/limits/effort
@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.epilog = _EXAMPLES
     parser.add_argument(
-        "words", metavar="SPEC PATH", nargs="*", help="the spec, and the path of a value in its robot; or the one CODE"
+        "words", metavar="SPEC PATH", nargs="*", help="the spec and the path of a value in its robot; or a CODE"
     )
     parser.add_argument("--codes", action="store_true", help="list the code of every diagnostic")
     add_spec_options(parser)
@@ -112,10 +112,10 @@ def _origin_at(controllers: Sequence[Explained], path: str) -> Origin | None:
 
 _ONLY_IN_SPECS = {
     "parameters": "`linkforge params` lists those of a spec",
-    "variables": "a value that uses one tells of it",
+    "variables": "the value that uses it shows where it comes from",
     "modules": "what a module brings is among the links and joints, with its prefix",
     "mount": "the joint is among the `joints`",
-    "defaults": "an entry that took one over tells of it",
+    "defaults": "the entry that uses it shows where it comes from",
 }
 """Sections of a spec that the finished robot does not have, with a hint where to look instead."""
 

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from linkforge_compile.source import SourceFile
 
 _EXAMPLES = """\
-Two spaces a level, lists indented below their key, {a: 1, b: 2} and [1, 2], two spaces or more before a comment, one
-blank line at most. Lines, keys, quotes and numbers stay as they are written, and columns that are aligned stay aligned.
+The format has two spaces per level, lists indented below their key, {a: 1, b: 2} and [1, 2], two or more spaces before
+a comment, and at most one blank line. Lines, keys, quotes and numbers do not change, and aligned columns remain
+aligned.
 
 examples:
   linkforge format                                  every spec below, except in hidden folders, build, install and log
@@ -38,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "words",
         metavar="SPEC",
         nargs="*",
-        help="specs, other files in YAML, or folders (default: .); - for standard input, to standard output",
+        help="specs, other YAML files, or folders (default: .); - for standard input, to standard output",
     )
     parser.add_argument("--check", action="store_true", help="write nothing; fail if a file would change")
     parser.add_argument("--diff", action="store_true", help="print what would change, and write no file")
@@ -85,7 +86,7 @@ def _read(spec: str, sink: Diagnostics) -> SourceFile | None:
     if spec == "-":
         source: SourceFile | None = SourceFile(STDIN, read_stdin())
     elif exists(path := Path(spec)) and not is_file(path):
-        raise UsageError(f"takes files and folders, found '{spec}'; give - for standard input")
+        raise UsageError(f"takes files and folders, found '{spec}'; use - for standard input")
     else:
         source = Loader().open_text(path, sink)
     if source and source.is_xml:

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from linkforge_compile.formats import Format
 
 _EXAMPLES = """\
-Formats marked `default` are written to a folder unless others are requested with --format. What a format loses of a
-robot is reported at its place in the spec; with `linkforge compile --strict`, nothing is written then.
+Formats marked `default` are written to a folder unless others are requested with --format. Parts that a format omits
+are reported at their place in the spec; with `linkforge compile --strict`, nothing is written in that case.
 
 examples:
   linkforge formats             all formats

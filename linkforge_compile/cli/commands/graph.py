@@ -24,8 +24,8 @@ FORMATS = ("svg", "dot", "mermaid")
 _BY_ENDING = {"svg": "svg", "dot": "dot", "gv": "dot", "mmd": "mermaid", "mermaid": "mermaid"}
 
 _EXAMPLES = """\
-Links are nodes, joints are edges with their name and type, and modules are boxes around their links. SPEC may be a URDF
-or a xacro as well.
+Links are nodes, joints are edges with their name and type, and modules are boxes around their links. SPEC can also be a
+URDF or a xacro.
 
 examples:
   linkforge graph cell.robot.yaml -o cell.svg             a picture for browsers and READMEs, light and dark
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
     add_spec_and_values(parser)
     parser.add_argument("-o", "--output", metavar="FILE", help="the file to write: .svg, .dot, .gv, .mmd or .mermaid")
-    parser.add_argument("--format", choices=FORMATS, help="the format, whatever the name of the file")
+    parser.add_argument("--format", choices=FORMATS, help="the format, regardless of the name of the file")
     add_spec_options(parser)
     add_report_options(parser)
 

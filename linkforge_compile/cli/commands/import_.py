@@ -28,17 +28,17 @@ if TYPE_CHECKING:
     from linkforge_compile.importing import Import
 
 _EXAMPLES = """\
-The spec compiles to the same robot. What the language cannot express is kept in `extra`, as raw XML; a diagnostic
-reports what cannot be kept at all. Relative paths of meshes stay as they are, so keep the spec beside the URDF; a
-diagnostic reports those that do not resolve from another folder.
+The spec compiles to the same robot. Elements that the language cannot express are kept as raw XML in `extra`; a
+diagnostic reports anything that cannot be kept. Relative mesh paths are not changed, so keep the spec beside the URDF;
+a diagnostic reports paths that do not resolve from another folder.
 
 examples:
   linkforge import arm.urdf
   linkforge import arm.urdf -o arm.robot.yaml --strict
   linkforge import arm.urdf --srdf arm.srdf -o arm.robot.yaml
   linkforge import ur.urdf.xacro --srdf ur.srdf.xacro ur_type:=ur5e -o .    each gets the arguments that it has
-  linkforge import --refresh ur.robot.yaml            again, from new files of the vendor, by the command in the spec
-  linkforge import --refresh ur.robot.yaml --check    only tell what the new files change, and what no longer fits
+  linkforge import --refresh ur.robot.yaml            again, from the vendor's new files, with the command in the spec
+  linkforge import --refresh ur.robot.yaml --check    only report the changes, and overrides that no longer fit
 """
 
 
@@ -59,14 +59,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="PATH", help="a file that ends in .yaml, or a folder for NAME.robot.yaml"
     )
     parser.add_argument("--force", action="store_true", help="replace an existing spec with other content")
-    parser.add_argument(
-        "--refresh", action="store_true", help="import a spec again, by the command that it begins with"
-    )
+    parser.add_argument("--refresh", action="store_true", help="import a spec again, with the command at its top")
     parser.add_argument(
         "--check", action="store_true", help="with --refresh: write nothing; exit code 1 if there is something to write"
     )
     parser.add_argument("--strict", action="store_true", help="if something cannot be kept, write nothing and fail")
-    add_parameter_option(parser, "set an argument of the xacros")
+    add_parameter_option(parser, "set an argument of the xacro files")
     add_package_option(parser)
     add_outside_option(parser)
     add_report_options(parser)
@@ -133,7 +131,7 @@ def _refuse_other_kinds(files: list[str]) -> None:
     srdf = next((file for file in files if file.lower().endswith((".srdf", ".srdf.xacro"))), None)
     if srdf:
         robot = next((file for file in files if file != srdf), "ROBOT.urdf")
-        raise UsageError(f"'{srdf}' is an SRDF; give it with its robot: linkforge import {robot} --srdf {srdf}")
+        raise UsageError(f"'{srdf}' is an SRDF; pass it with its robot: linkforge import {robot} --srdf {srdf}")
     if len(files) == 1 and files[0].lower().endswith((".yaml", ".yml")):
         raise UsageError(f"'{files[0]}' is a spec already; import takes a URDF or a xacro of one")
 

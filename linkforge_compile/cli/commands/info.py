@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from linkforge_compile.listing import Listing
 
 _EXAMPLES = """\
-Links and joints, degrees of freedom, mass and its centre, reach, size, files of meshes, sensors, hardware, controllers,
-planning groups, parameters and modules. The reach is an upper bound, and the size includes meshes if the extra `mesh`
-is installed. SPEC may be a URDF or a xacro as well.
+It prints links and joints, degrees of freedom, mass and its centre, reach, size, mesh files, sensors, hardware,
+controllers, planning groups, parameters and modules. The reach is an upper bound, and the size includes meshes if the
+extra `mesh` is installed. SPEC can also be a URDF or a xacro.
 
 examples:
   linkforge info arm.robot.yaml

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from linkforge_compile.editor.folders import RobotFolder
 
 _EXAMPLES = """\
-Writes a first spec NAME.robot.yaml, the schema with which editors complete it, settings and tasks of VS Code,
-.gitignore, .pre-commit-config.yaml and CMakeLists.txt. Existing files are kept, and the lines that they lack are
-printed; only the schema is renewed. Files that serve a whole package or repository are not written again in a folder
-within it; those of VS Code and .pre-commit-config.yaml, which tools read only at the top of a repository, are written
-there.
+This writes a first spec NAME.robot.yaml, the schema for completion in editors, settings and tasks for VS Code,
+.gitignore, .pre-commit-config.yaml and CMakeLists.txt. Existing files are not changed, and the lines that they lack are
+printed; only the schema is updated. Files that apply to a whole package or repository are not written again in a folder
+within it. Tools read the files for VS Code and .pre-commit-config.yaml only at the top level of a repository, so they
+are written there.
 
 examples:
   linkforge init my_arm               in a new folder my_arm

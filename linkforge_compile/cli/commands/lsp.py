@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 import gc
 
 _EXAMPLES = """\
-Editors start it; docs/editors.md has the set-up of each. It talks over standard input and output, or to the one client
-that connects to a port of this machine. It needs pygls: pip install 'linkforge-compile[lsp]'.
+Editors start it; docs/editors.md describes the set-up of each. It communicates over standard input and output, or with
+one client that connects to a local port. It requires pygls: pip install 'linkforge-compile[lsp]'.
 
 examples:
   linkforge lsp
@@ -23,7 +23,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("--stdio", action="store_true", help="talk over standard input and output (default)")
+    parser.add_argument("--stdio", action="store_true", help="communicate over standard input and output (default)")
     parser.add_argument("--port", type=int, metavar="PORT", help="listen for one client on 127.0.0.1")
 
 

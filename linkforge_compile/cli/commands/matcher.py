@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-It matches the text that every command and build step of linkforge prints. Where `linkforge check` is a step of its own,
-`--format github` needs no matcher.
+It matches the text output of every command and build step of linkforge. If `linkforge check` is a separate step, use
+`--format github` instead, which needs no matcher.
 
 examples:
   linkforge matcher -o linkforge-matcher.json && echo "::add-matcher::linkforge-matcher.json"    before the build
@@ -20,7 +20,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
 

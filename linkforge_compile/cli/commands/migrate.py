@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 _ENDING = ".robot.yaml"
 
 _EXAMPLES = """\
-Macros become modules with parameters, properties variables, arguments parameters, and conditions `when`. The xacro is
-read without running it; then the specs are compiled and compared with what xacro expands, for each value of a boolean
-argument and each word that one is compared with, in all combinations. Nothing is written unless all are the same robot.
+Macros become modules with parameters, properties become variables, arguments become parameters, and conditions become
+`when`. The xacro is read without running it; then the specs are compiled and compared with what xacro expands, for each
+value of a boolean argument and each word that one is compared with, in all combinations. Nothing is written unless all
+are the same robot.
 
 examples:
   linkforge migrate arm.urdf.xacro -o robots/
@@ -47,7 +48,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--force", action="store_true", help="replace existing specs with other content")
     parser.add_argument(
-        "--draft", action="store_true", help="write specs that are another robot, too, to mend them by hand"
+        "--draft",
+        action="store_true",
+        help="write the specs even if they give a different robot, to correct them by hand",
     )
     parser.add_argument(
         "--verify", action="store_true", help="compare the specs in the folder with the xacro, and write nothing"
@@ -57,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=float,
         default=300,
-        help="how long the translation and the comparison may take together (300)",
+        help="the maximum time of the translation and the comparison (default: 300)",
     )
     parser.add_argument("--json", action="store_true", help="print the report as JSON, for tools")
     add_package_option(parser)
@@ -69,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
     files, assignments = split_assignments(arguments.words)
     xacro = Path(require_one_spec(files))
     if not xacro.is_file():
-        raise UsageError(f"'{xacro}' is no file")
+        raise UsageError(f"'{xacro}' is not a file")
     from linkforge_compile.analysis import Settings
     from linkforge_compile.diagnostics import Diagnostics
     from linkforge_compile.migration.deadline import Deadline
@@ -100,7 +103,7 @@ def _output(path: Path) -> tuple[Path, str]:
     if path.is_dir() or path.suffix not in (".yaml", ".yml"):
         return path, ""
     if not path.name.endswith(_ENDING):
-        raise UsageError(f"'{path}' is no name of a spec; -o takes a folder, or a file that ends in {_ENDING}")
+        raise UsageError(f"'{path}' is not the name of a spec; -o takes a folder, or a file that ends in {_ENDING}")
     return path.parent, path.name.removesuffix(_ENDING)
 
 

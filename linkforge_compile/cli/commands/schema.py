@@ -15,14 +15,14 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-For VS Code and every editor with yaml-language-server, put this on the first line of a spec, beside the schema:
+For VS Code and every editor with yaml-language-server, put this line at the top of a spec in the folder of the schema:
   # yaml-language-server: $schema=robot.schema.json
 
-With --workspace, editors also complete the names of links, joints, groups, materials and files, and the parameters of
-a module under `with`. Unless -o is given, the schema is written to FOLDER/.linkforge/robot.schema.json. Without
-FOLDER, that is the folder at or above this one, within the repository, that has such a schema; else each folder below
-that has one; else this folder. Run it again when names have changed; new names are valid before that, but not offered.
-It compiles the specs, and so runs xacro files that they use, unless LINKFORGE_NO_XACRO is set.
+With --workspace, editors also complete the names of links, joints, groups, materials and files, and the parameters of a
+module under `with`. Unless -o is given, the schema is written to FOLDER/.linkforge/robot.schema.json. Without FOLDER,
+that is the folder at or above this one, within the repository, that has such a schema; or else each folder below that
+has one; or else this folder. Run it again when names have changed; until then, new names are valid but not completed.
+It compiles the specs, which runs the xacro files that they use, unless LINKFORGE_NO_XACRO is set.
 
 examples:
   linkforge schema -o robot.schema.json    the keys of the language
@@ -32,7 +32,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = _EXAMPLES
-    parser.add_argument("-o", "--output", metavar="FILE", help="write it to a file instead of standard output")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write to a file instead of standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     parser.add_argument(
         "--workspace",
@@ -76,9 +76,9 @@ def workspace_schema(root: Path, packages: Mapping[str, Path], *, runs_xacro: bo
 
     specs = _find_specs(root, packages)
     for folder in schemas_below(root, specs):
-        print_line(f"'{folder}' has a schema of its own; `linkforge schema --workspace {folder}` renews it")
+        print_line(f"'{folder}' has its own schema; `linkforge schema --workspace {folder}` updates it")
     vocabularies = without_parts(read_vocabulary(spec, root, packages, runs_xacro=runs_xacro) for spec in specs)
-    remedy = "`linkforge check` tells why" if runs_xacro else "`linkforge schema --workspace` may find them"
+    remedy = "`linkforge check` shows why" if runs_xacro else "`linkforge schema --workspace` may find them"
     for vocabulary in vocabularies:
         if not vocabulary.is_whole:
             print_line(f"names of {root / vocabulary.files[0]} may be missing; {remedy}")

@@ -69,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_choice_options(parser)
     _add_output_options(parser)
     _add_place_options(parser)
-    add_spec_options(parser, variants_help="once more for another one, which is an axis of the sweep")
+    add_spec_options(parser, variants_help="repeat it for others, which become an axis of the sweep")
     add_format_options(parser)
     add_report_options(parser)
 
@@ -99,7 +99,7 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("output")
     group.add_argument(
         "--format", metavar="FORMAT", dest="formats", action="append", default=[],
-        help="write this format, once more for another one (default: URDF, and SRDF for a spec with `semantic`)",
+        help="the format to write; repeat it for others (default: URDF, and SRDF for a spec with `semantic`)",
     )  # fmt: skip
     packing = group.add_mutually_exclusive_group()
     packing.add_argument(
@@ -121,7 +121,7 @@ def _add_place_options(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         metavar="N",
         type=_jobs,
-        help=f"how many processes; 1 needs no Dask (default: one per processor, 1 for fewer than {FEW} robots)",
+        help=f"the number of processes; 1 needs no Dask (default: one per processor, 1 for fewer than {FEW} robots)",
     )
     group.add_argument(
         "--scheduler", metavar="ADDRESS", help="the scheduler of a Dask cluster, such as tls://head:8786"

@@ -17,13 +17,13 @@ from linkforge_compile.cli.options import (
 from linkforge_compile.cli.reports import add_report_options, is_colored, report
 
 _EXAMPLES = """\
-Each link has the joint above it: its name, type and axis, the range of its position (angles in degrees, lengths in
-metres) or the joint that it follows; and the mass of the link. SPEC may be a URDF or a xacro as well.
+Each link has the joint above it, with its name, type and axis, and the range of its position (angles in degrees,
+lengths in metres) or the joint that it follows; and the mass of the link. SPEC can also be a URDF or a xacro.
 
 examples:
   linkforge tree arm.robot.yaml
-  linkforge tree arm.robot.yaml --links           the names of the links alone
-  linkforge tree cell.robot.yaml --depth 3        the first levels, and how many links are below
+  linkforge tree arm.robot.yaml --links           only the names of the links
+  linkforge tree cell.robot.yaml --depth 3        the first levels, and the number of links below
   linkforge tree arm.urdf.xacro model:=x5         a xacro with its arguments
   linkforge tree arm.robot.yaml --json            for tools; numbers are in SI units
 """

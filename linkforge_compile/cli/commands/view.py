@@ -42,12 +42,12 @@ MAX_SIDE = 8192
 MAX_PORT = 65535
 
 _EXAMPLES = """\
-Without -o, it opens the robot in the browser, and shows each change of the spec and of its parameters until Ctrl-C; the
-faults of a spec are shown over its last robot without errors. docs/view.md says how to look from another machine.
+Without -o, it opens the robot in the browser, and shows each change of the spec and of its parameters until Ctrl-C.
+Errors are shown over the last robot without errors. docs/view.md describes how to view a robot on another machine.
 
-With -o, it writes a file. The page has the meshes inside, and a browser shows it without a network: the robot to turn,
-its joints to move, its frames, axes, masses and collisions to look at. A picture is drawn by Chrome, Chromium or Edge
-without a window, also on machines without a graphics card; LINKFORGE_BROWSER names one that is not found.
+With -o, it writes a file. A page contains the meshes and works without a network: you can turn the robot, move its
+joints, and show its frames, axes, masses and collisions. Chrome, Chromium or Edge draws a picture without a window,
+even on machines without a graphics card; to use another browser, set LINKFORGE_BROWSER.
 
 examples:
   linkforge view arm.robot.yaml                                 in the browser, live
@@ -72,12 +72,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         dest="outputs",
         action="append",
         default=[],
-        help="write the page, FILE.html, or the picture, FILE.png, and open no browser; once more for the other one",
+        help="write the page, FILE.html, or the picture, FILE.png, without opening a browser; repeat it for the "
+        "other one",
     )
     parser.add_argument(
         "--format",
         choices=sorted(set(_FORMATS_BY_ENDING.values())),
-        help="the form of an output with another ending, or of -o -",
+        help="the format of an output with another suffix, or of -o -",
     )
     _add_first_view_options(parser)
     _add_live_options(parser)
@@ -93,15 +94,16 @@ def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
         dest="poses",
         action="append",
         default=[],
-        help="where the joints are: in GROUP/STATE, or STATE of every group that has it, or JOINT=VALUE; once more for"
-        " others (default: at 0, or in the middle of limits that exclude 0)",
+        help="the positions of the joints: GROUP/STATE, STATE of every group that has it, or JOINT=VALUE; repeat it "
+        "for "
+        "others (default: 0, or the middle of limits that exclude 0)",
     )
     parser.add_argument(
         "--camera",
         metavar="AZIMUTH,ELEVATION[,DISTANCE]",
         type=_camera,
-        help="where the robot is seen from: degrees about z from x, degrees above the ground, and metres from its"
-        " middle (default: all of it is seen)",
+        help="the position of the camera: degrees about z from x, degrees above the ground, and metres from the centre "
+        "of the robot (default: far enough to show all of it)",
     )
     parser.add_argument(
         "--size",
@@ -114,16 +116,18 @@ def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
         "--show",
         metavar="LAYER[,...]",
         type=_layers,
-        help=f"what is shown, instead of visuals and grid: {', '.join(LAYERS)}",
+        help=f"the layers to show instead of visuals and grid: {', '.join(LAYERS)}",
     )
 
 
 def _add_live_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the page that a server shows."""
     parser.add_argument(
-        "--port", metavar="N", type=_port, help="serve the page at this port of 127.0.0.1 (default: any free one)"
+        "--port", metavar="N", type=_port, help="serve the page on this port of 127.0.0.1 (default: any free port)"
     )
-    parser.add_argument("--no-browser", action="store_true", help="print the address of the page, and open no browser")
+    parser.add_argument(
+        "--no-browser", action="store_true", help="print the address of the page without opening a browser"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import argparse
 
 _EXAMPLES = """\
-Errors are reported and leave the old output; the next change compiles again. Press Ctrl-C to end it.
+Errors are reported, and the old output remains until the next change compiles without errors. Press Ctrl-C to stop it.
 
 examples:
   linkforge watch arm.robot.yaml -o build/

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge where FILE:LINE[:COLUMN] | FILE NAME"
     parser.epilog = _EXAMPLES
     parser.add_argument("file", metavar="FILE[:LINE[:COLUMN]]", help="a line of a file that linkforge wrote")
-    parser.add_argument("name", metavar="NAME", nargs="?", help="what has this name in the file, instead of a line")
+    parser.add_argument("name", metavar="NAME", nargs="?", help="the name of an element in the file, instead of a line")
     add_report_options(parser)
 
 

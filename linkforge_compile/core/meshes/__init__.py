@@ -219,7 +219,7 @@ def _find_wrong_corner(content: bytes) -> str | None:
     count = sum(1 for _ in _VERTEX.finditer(content))
     for line, corner in _corners(content):
         if not _NUMBER.fullmatch(corner):
-            return f"line {line}: '{corner[:40].decode(errors='replace')}' is no number of a vertex"
+            return f"line {line}: '{corner[:40].decode(errors='replace')}' is not a vertex coordinate"
         if not 1 <= abs(int(corner)) <= count:
             return f"line {line}: the face has a vertex {int(corner)}, but the file has {count}"
     return None

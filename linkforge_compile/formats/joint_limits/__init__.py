@@ -23,7 +23,7 @@ class JointLimitsYaml(Format):
     name = "joint_limits"
     suffix = "_joint_limits.yaml"
     description = "the limits of joints, for MoveIt"
-    keeps = "the greatest velocity, acceleration, deceleration and jerk of each joint with one position"
+    keeps = "the maximum velocity, acceleration, deceleration and jerk of each joint with one position"
     loses = "position limits and efforts, which MoveIt reads from the URDF"
 
     def missing(self, robot: Robot) -> Diagnostic | None:

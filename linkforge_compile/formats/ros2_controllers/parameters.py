@@ -27,7 +27,7 @@ from linkforge_compile.core.models.controller_kinds import (
 from linkforge_compile.units import parse_quantity
 
 DOUBLE, INT, BOOL, STRING, ANY = "a number", "a whole number without a unit", "true or false", "a text", ""
-DOUBLES, STRINGS = "a list of numbers", "a list of texts"
+DOUBLES, STRINGS = "a list of numbers", "a list of strings"
 
 Type = str | Mapping[str, "Type"]
 """What a parameter accepts, ANY for whatever it is given, or the parameters in it by name."""

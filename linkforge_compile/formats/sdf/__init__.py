@@ -30,7 +30,7 @@ MESHES = Option(
     "meshes",
     ("model", "file"),
     "model",
-    "what meshes of packages are in SDF: model://, which GZ_SIM_RESOURCE_PATH resolves, or files of this machine "
+    "how SDF refers to meshes of packages: model://, which GZ_SIM_RESOURCE_PATH resolves, or files on this machine "
     "(default: model)",
 )
 

@@ -85,7 +85,7 @@ class _Run:
             if event == "open" and (not isinstance(flags, int) or flags & _WRITING):
                 raise _RefusedError("no robot description writes files")
             if not self._may_read(path, own):
-                raise _RefusedError(f"'{path}' is no file that it may read")
+                raise _RefusedError(f"'{path}' is not a file that it may read")
 
         sys.addaudithook(refuse)
 

@@ -269,7 +269,7 @@ def _content(item: XmlContent, find: Find, span: Span) -> XmlContent:
     return item
 
 
-_NO_YAML = "'{1}' is no YAML: {0} (line {2}, column {3})"
+_NO_YAML = "'{1}' is not YAML: {0} (line {2}, column {3})"
 
 _MESSAGES = (
     (r"Undefined parameters \[(.*)\]", "the macro also takes {0}, which this call does not give"),
