@@ -84,11 +84,9 @@ WITHOUT_FIX = {
     "LF3040": "any other name will do, and all that refer to it have it",
     "LF3061": "one of two different entries is right",
     "LF3062": "the other file may have it already",
-    "LF3121": "the text is that of a parameter, which may be set elsewhere",
     **dict.fromkeys(("LF3208", "LF3211"), "what repeats an entry may not be about all of a value"),
     "LF4003": "all that refer to the link have its name",
     "LF4111": "one of two values is right",
-    "LF4203 LF4203_joint_of_a_module": "the name is that of another module's joint with its own prefix",
     "LF5323": "a joint cannot be left out without its links",
     **dict.fromkeys(("LF7001", "LF7145", "LF7160"), "raw XML is the user's own"),
 }

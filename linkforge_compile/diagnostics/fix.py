@@ -13,6 +13,9 @@ from linkforge_compile.source.characters import on_one_line
 _LONGEST = 2_000
 """Characters of a text in which a word is looked for, and of what replaces it."""
 
+_PREFIX = "$(prefix)"
+"""The prefix of a module, which messages show as it is in the robot."""
+
 _QUOTES = ("'", '"')
 _MARKS_OF_FLOW = (",", "[", "]", "{", "}")
 
@@ -74,6 +77,8 @@ class Replacement(NamedTuple):
         if end - begin > _LONGEST or len(self.new) > _LONGEST:
             return None
         text = span.file.counted[begin:end]
+        if after_prefix := self._after_prefix(text):
+            return after_prefix.within(span.file.between(begin + text.index(_PREFIX) + len(_PREFIX), end))
         if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
             return None
         title = f"write '{self.new}'" if self.new else f"remove '{self.old}'"
@@ -86,6 +91,13 @@ class Replacement(NamedTuple):
         if quote and at > begin and {quote, "\\"} & {*self.new}:
             return None
         return Fix(title, (Edit(span.file.between(at, at + len(self.old)), self.new),), self.is_safe)
+
+    def _after_prefix(self, text: str) -> Replacement | None:
+        """Return what to write after the `$(prefix)` that begins a text; None for other texts and prefixes."""
+        before, prefix, name = text.strip("'\"").partition(_PREFIX)
+        own = self.old.removesuffix(name)
+        is_name = prefix and name and not before and own != self.old and self.new.startswith(own)
+        return self._replace(old=name, new=self.new.removeprefix(own)) if is_name else None
 
     def is_word_for(self, span: Span | None) -> bool:
         """Whether `new` keeps its meaning in place of a name, in the quotes that the span has or without any."""

@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes import expressions as codes
+from linkforge_compile.diagnostics.fix import Replacement
 from linkforge_compile.expressions.functions import CONSTANTS, FILE_FUNCTIONS, FUNCTIONS
 from linkforge_compile.expressions.operators import (
     ARITHMETIC,
@@ -260,7 +261,11 @@ class _Evaluation:
                 span = self._traced_span(operands[refused.operand])
             else:
                 span = expression.key_span(node)
-            self._sink.report(refused.code.at(span, near=refused.near, notes=(), **refused.facts))
+            fault = refused.code.at(span, near=refused.near, notes=(), **refused.facts)
+            written, instead = (str(refused.facts.get(fact, "")) for fact in ("written", "instead"))
+            place = span.origin.span if span.origin and instead else None
+            fix = Replacement(written, instead).within(place)
+            self._sink.report(fault.with_fix(fix))
             raise _FaultError from None
 
     def _traced_span(self, node: ast.expr) -> Span:

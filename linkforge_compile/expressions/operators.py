@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any, TypeAlias
 
 from linkforge_compile.diagnostics.codes import expressions as codes
-from linkforge_compile.diagnostics.suggest import did_you_mean
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.expressions.types import (
     RefusedError,
     Value,
@@ -92,19 +92,21 @@ def number(value: Value, operand: int = 0, **facts: str) -> tuple[Number, Dimens
     if isinstance(value, Quantity):
         return value.value, value.dimension
     if isinstance(value, bool) or not isinstance(value, int | float):
-        found = kind_name(value) + _unit_hint(value)
-        raise RefusedError(codes.WRONG_KIND, operand=operand, expected="a number", found=found, **facts)
+        hint, unit, intended = _unknown_unit(value)
+        facts |= {"expected": "a number", "found": kind_name(value) + hint, "written": unit, "instead": intended}
+        raise RefusedError(codes.WRONG_KIND, operand=operand, **facts)
     return value, None
 
 
-def _unit_hint(value: Value) -> str:
-    """Return what is wrong with the unit in a text such as "3 inchs"; "" for any other value."""
+def _unknown_unit(value: Value) -> tuple[str, str, str]:
+    """Return what is wrong with the unit in a text such as "3 inchs", the unit and the intended one; "" for none."""
     unit = unit_text(value) if isinstance(value, str) else None
     if unit is None or not isinstance(value, str) or parse_quantity(value):
-        return ""
-    intended = suggested_unit(unit)
-    hint = f"; did you mean '{intended.name}'?" if intended else did_you_mean(unit, UNITS)
-    return f"; there is no unit '{unit}'{hint}"
+        return "", "", ""
+    known = suggested_unit(unit)
+    intended = known.name if known else nearest(unit, UNITS) or ""
+    hint = f"; did you mean '{intended}'?" if intended else ""
+    return f"; there is no unit '{unit}'{hint}", unit, intended
 
 
 def with_dimension(value: Number, dimension: Dimension | None) -> Value:

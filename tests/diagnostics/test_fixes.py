@@ -26,6 +26,8 @@ def fixed(text: str, name: str, near: str) -> str | None:
         ("parts/rood.yaml", "rood.yaml", "rod.yaml", "parts/rod.yaml"),
         ("5 kgg", "kgg", "kg", "5 kg"),
         (">\n  a rood\n", "rood", "rod", ">\n  a rod\n"),
+        ("$(prefix)rood", "left_rood", "left_rod", "$(prefix)rod"),
+        ('"$(prefix)rood"', "left_rood", "left_rod", '"$(prefix)rod"'),
     ],
 )
 def test_a_name_is_replaced_where_it_is_written(text: str, name: str, near: str, expected: str):
@@ -37,6 +39,7 @@ def test_a_name_is_replaced_where_it_is_written(text: str, name: str, near: str,
     [
         ("$(rood)", "rood", "rod"),  # the value of another name
         ("$(side)_hnad", "left_hnad", "left_hand"),
+        ("$(prefix)rood", "left_rood", "right_rod"),
         ("rood/rood", "rood", "rod"),
         ("rood", "rood", "roo: d"),  # it would be a map
         ("'rood'", "rood", "ro'd"),
