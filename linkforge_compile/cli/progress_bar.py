@@ -35,11 +35,13 @@ class ProgressBar:
     def show(self, done: int, note: str = "") -> None:
         """Show that so many units are done, with a note, if the last time was long enough ago.
 
-        The first call has the number of units that are done already. The rate counts from the first result after it.
+        The first call has the number of units that are done already, which a terminal shows at once: the first result
+        may need processes that start. The rate counts from that result.
         """
         now = monotonic()
         if self._before is None:
             self._before = done
+            self._last = float("-inf") if self._is_bar else self._last
         elif self._first is None and done > self._before:
             self._first = now, done
         if now - self._last < (_REDRAWN if self._is_bar else PROGRESS_INTERVAL):

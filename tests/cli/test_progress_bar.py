@@ -56,6 +56,13 @@ def test_the_start_of_processes_does_not_count(clock: list[float], monkeypatch: 
     assert stream.getvalue().splitlines() == lines
 
 
+def test_a_terminal_shows_what_is_waited_for_at_once(clock: list[float], monkeypatch: pytest.MonkeyPatch):
+    stream = Terminal()
+    monkeypatch.setattr("sys.stderr", stream)
+    ProgressBar(240, "robots", argparse.Namespace(quiet=False, diagnostics="text")).show(0, "waiting for processes")
+    assert stream.getvalue().endswith("] 0 of 240 robots, waiting for processes\033[K")
+
+
 @pytest.mark.parametrize("stream", [io.StringIO, Terminal])
 def test_quiet_shows_nothing(stream: type[io.StringIO], clock: list[float], monkeypatch: pytest.MonkeyPatch):
     assert show(stream(), clock, monkeypatch, quiet=True) == ""

@@ -154,13 +154,15 @@ def _run(arguments: argparse.Namespace) -> int:
     packing = "none" if arguments.table_only else arguments.pack or "folders"
     folder = Path(arguments.output)
     store = Store(folder, packing, plan.request.columns, has_variants=plan.has_variants)
+    place = _place_of(plan, arguments)
+    first_note = iter(() if place.is_here else ("waiting for processes to start",))
     bar, begin = ProgressBar(plan.size, "robot" if plan.size == 1 else "robots", arguments), monotonic()
 
     def progress(done: int, failed: int) -> None:
-        bar.show(done, f"{failed:,} with errors" if failed else "")
+        bar.show(done, next(first_note, "") or (f"{failed:,} with errors" if failed else ""))
 
     try:
-        summary = execute(plan, store, _place_of(plan, arguments), packing, resume=arguments.resume, progress=progress)
+        summary = execute(plan, store, place, packing, resume=arguments.resume, progress=progress)
     except KeyboardInterrupt:
         bar.close()
         print_line(f"linkforge sweep: interrupted; the same command with --resume continues in '{folder}'")
