@@ -71,6 +71,8 @@ class Merger:
             return self._only_if(test, one, "" if is_plain else key)
         if key in _LISTS:
             return self._list(test, _items(one), _items(other), key)
+        if is_plain and one is not None and other is not None and (_is_long(one) or _is_long(other)):
+            return self._map(test, _as_long(one), _as_long(other), is_plain=True)
         match one, other:
             case YamlMap(), YamlMap():
                 return self._map(test, one, other, is_plain=is_plain or key in _PLAIN)
@@ -200,6 +202,17 @@ def _with_prefix(parts: Parts) -> Iterator[Part]:
                 yield ast.Name(id="prefix", ctx=ast.Load())
             if piece:
                 yield piece
+
+
+def _is_long(node: YamlNode) -> bool:
+    """Whether a node is a value with its condition."""
+    return isinstance(node, YamlMap) and node.entries.keys() == {"when", "value"}
+
+
+def _as_long(node: YamlNode) -> YamlMap:
+    if isinstance(node, YamlMap) and _is_long(node):
+        return node
+    return YamlMap({"value": YamlEntry(YamlScalar("value", "value", node.span), node)}, node.span)
 
 
 def _items(node: YamlNode | None) -> tuple[YamlNode, ...]:

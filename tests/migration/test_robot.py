@@ -299,3 +299,26 @@ def test_flags_of_instructions_are_read_as_xacro_reads_them(flag: str, tmp_path:
     made = migrated(tmp_path, text)
     box = compile_text(made.robot).result().links["base"].collisions[0].geometry
     assert (box.size.x, box.size.y, box.size.z) == (2, 2, 3)
+
+
+def test_a_parameter_of_some_of_three_drivers_has_a_condition(tmp_path: Path):
+    text = """
+<xacro:arg name="driver" default="a"/>
+<xacro:arg name="ip" default="10.0.0.1"/>
+<xacro:property name="driver" value="$(arg driver)"/>
+<link name="base"/>
+<link name="tip"/>
+<joint name="elbow" type="continuous"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/></joint>
+<ros2_control name="arm" type="system">
+  <hardware>
+    <xacro:if value="${driver == 'a'}"><plugin>a/A</plugin><param name="ip">$(arg ip)</param></xacro:if>
+    <xacro:if value="${driver == 'b'}"><plugin>b/B</plugin></xacro:if>
+    <xacro:if value="${driver == 'c'}"><plugin>c/C</plugin><param name="ip">0.0.0.0</param></xacro:if>
+  </hardware>
+  <joint name="elbow"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+    made = migrated(tmp_path, text)
+    assert "enum: [a, b, c]" in made.robot
+    assert "value: $(ip if driver == 'a' else '0.0.0.0')" in made.robot
+    assert "extra" not in made.robot
