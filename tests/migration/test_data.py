@@ -101,7 +101,7 @@ def test_a_file_with_the_tags_of_units_is_data_of_the_spec(tmp_path: Path):
     ("data", "reason"),
     [
         (b"a: \xff", "cannot be read: 'utf-8' codec can't decode byte 0xff"),
-        (b"a: !degrees none", "cannot be read: 'none' after !degrees is no number (line 1, column 4)"),
+        (b"a: !degrees none", "cannot be read: 'none' after !degrees is not a number (line 1, column 4)"),
         (b"a: {", "cannot be read: expected the node content, but found '<stream end>' (line 1, column 5)"),
     ],
 )
