@@ -10,6 +10,7 @@ from linkforge_compile.source import Located, SourceFile, SourceRef, Span
 
 _BLANK = re.compile(r"(?:\s|(?<!\S)#[^\r\n]*)*")
 _COLON = re.compile(r"[ \t]*:")
+_CLOSING = re.compile(r"\s*\}")
 _SEPARATOR = re.compile(r"\s*, *")
 _BETWEEN = re.compile(r"\s*,?\s*")
 _DASHES = re.compile(r" *(?:- +)?")
@@ -52,12 +53,12 @@ def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:
     if len(written) < len(places) or not written:
         return None
     file, first, last = written[0].file, written[0], written[-1]
-    begin, end = file.index_of(*first.start), file.index_of(*last.end)
-    before, after = file.counted[:begin].rstrip(), file.counted[end:].lstrip()
-    if before.endswith("{") and after.startswith("}"):
-        if before[:-1].rstrip().endswith(("-", ",", "[")):
+    begin, closing = _before(file, file.index_of(*first.start)), _CLOSING.match(file.counted, file.index_of(*last.end))
+    if closing and file.counted[begin - 1 : begin] == "{":
+        around = _before(file, begin - 1)
+        if file.counted[around - 1 : around] in ("-", ",", "["):
             return None
-        whole = file.between(len(before) - 1, end + len(file.counted) - end - len(after) + 1)
+        whole = file.between(begin - 1, closing.end())
         items = ", ".join(f"{{{file.counted[file.index_of(*one.start) : file.index_of(*one.end)]}}}" for one in written)
         return Fix(title, (Edit(whole, f"[{items}]"),))
     if any(file.line(place.line)[: place.column - 1].strip() for place in written):
@@ -161,7 +162,15 @@ def _begins_line(place: Span) -> bool:
 def _is_in_flow(file: SourceFile, end: int) -> bool:
     """Whether what ends at an index is in brackets or braces."""
     blank = _BLANK.match(file.counted, end)
-    return file.counted[blank.end() if blank else end :][:1] in (",", "}", "]")
+    after = blank.end() if blank else end
+    return file.counted[after : after + 1] in (",", "}", "]")
+
+
+def _before(file: SourceFile, index: int) -> int:
+    """Return the index after the last character before an index that is no space."""
+    while file.counted[index - 1 : index].isspace():
+        index -= 1
+    return index
 
 
 def _removal(places: Iterable[Span | None], title: str, *, is_item: bool) -> Fix | None:
@@ -191,9 +200,7 @@ def _edit(place: Span, *, is_item: bool) -> Edit | None:
     file = place.file
     text, begin, end = file.counted, file.index_of(*place.start), file.index_of(*place.end)
     if _is_in_flow(file, end):
-        before = begin
-        while text[before - 1 : before].isspace():
-            before -= 1
+        before = _before(file, begin)
         if separator := _SEPARATOR.match(text, end):
             end = separator.end()
         elif text[before - 1 : before] == ",":

@@ -8,6 +8,7 @@ from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.entry_fixes import (
     add_entry,
     add_to_short_form,
+    as_items,
     exchange,
     leave_out,
     leave_out_all,
@@ -148,3 +149,27 @@ def test_two_values_are_exchanged():
     fix = exchange("swap them", ref.at("base_link"), ref.at("tip_link"))
     assert applied(ref, fix) == "base_link: 'my base'\ntip_link: tip\n"
     assert exchange("swap them", ref.at("base_link"), ref.at("base_link")) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "after"),
+    [
+        ("a: {b: 1, c: [2, 3]}\n", "a: [{b: 1}, {c: [2, 3]}]\n"),
+        ("a: { b: 1,\n  c: 2 }\n", "a: [{b: 1}, {c: 2}]\n"),
+        ("a:\n  b:\n    d: 1\n\n  c: 2   # two\n", "a:\n  - b:\n      d: 1\n\n  - c: 2   # two\n"),
+    ],
+)
+def test_a_map_becomes_a_list(text: str, after: str):
+    ref = read_text(text)
+    node = ref.node.child("a")
+    assert isinstance(node, YamlMap)
+    entries = [(entry.key.span, entry.value.span) for entry in node]
+    assert applied(ref, as_items(entries, "write a list")) == after
+
+
+@pytest.mark.parametrize("text", ["a: [{b: 1, c: 2}]\n", "a:\n  - {b: 1, c: 2}\n", "a:\n  - b: 1\n    c: 2\n"])
+def test_an_item_does_not_become_a_list(text: str):
+    items = read_text(text).node.child("a")
+    node = items.child(0) if items is not None else None
+    assert isinstance(node, YamlMap)
+    assert as_items([(entry.key.span, entry.value.span) for entry in node], "write a list") is None
