@@ -115,7 +115,7 @@ def _security(address: str, files: Mapping[str, str]) -> Any:
     if is_encrypted and not (security.tls_ca_file and security.tls_client_cert and security.tls_client_key):
         raise SweepError(
             f"'{address}' needs the certificate of your authority, your own, and your key: "
-            "--tls-ca FILE --tls-cert FILE --tls-key FILE"
+            "--tls-ca FILE --tls-cert FILE --tls-key FILE, or security={…} in Python"
         )
     return security
 
