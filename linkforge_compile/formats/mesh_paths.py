@@ -90,7 +90,7 @@ def reason_not_found(robot: Robot, resource: str) -> str:
         return f"'package:///' names no package, and RViz refuses it too; write 'package://{package}/…'"
     package = rest.partition("/")[0] if resource.startswith(_PACKAGE) else ""
     if package and find_file(robot, f"{_PACKAGE}{package}") is None:
-        return f"package '{package}' is not found; say where it is with `--package {package}=FOLDER`"
+        return f"package '{package}' is not found; specify its folder with `--package {package}=FOLDER`"
     return "the file is not found"
 
 

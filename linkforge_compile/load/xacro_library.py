@@ -219,7 +219,7 @@ class _Search:
         if kind == "find":
             folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
             if folder is None:
-                raise _NotFollowedError(f"no package named '{name}'; say where it is with --package {name}=FOLDER")
+                raise _NotFollowedError(f"no package named '{name}'; specify its folder with --package {name}=FOLDER")
             return str(folder)
         declared = self.declarations.get(name)
         default = declared.get("default") if declared else None

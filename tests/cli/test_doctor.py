@@ -36,6 +36,19 @@ def test_lists_the_versions_that_are_installed_and_the_variables(tmp_path: Path)
     assert ("ROS_PACKAGE_PATH", str(tmp_path)) in found
 
 
+def test_a_folder_that_does_not_exist_is_marked(tmp_path: Path):
+    environment = {"ROS_PACKAGE_PATH": f"{tmp_path}:{tmp_path / 'nope'}", "AMENT_PREFIX_PATH": ""}
+    found = rows(linkforge("doctor", cwd=tmp_path, **environment).stdout)
+    assert ("ROS_PACKAGE_PATH", f"{tmp_path}:{tmp_path / 'nope'} (no such folder)") in found
+
+
+def test_pinocchio_is_known_by_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(installation, "requires", lambda _: ["pin; extra == 'collisions'"])
+    monkeypatch.setattr(installation, "installed_version", lambda _: None)
+    wanted = ("collisions", "no pin (Pinocchio); pip install 'linkforge-compile[collisions]'")
+    assert wanted in rows(linkforge("doctor", cwd=tmp_path).stdout)
+
+
 def test_a_missing_extra_has_the_line_that_installs_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(installation, "requires", lambda _: ["no-such-reader>=2; extra == 'mesh'"])
     assert requirements() == {"": [], "mesh": [Requirement("no-such-reader", ">=2", None)]}
@@ -67,7 +80,7 @@ def test_a_package_nearby_that_nothing_names_is_the_way_out(tmp_path: Path):
     package(tmp_path / "src" / "robot", "robot")
     done = linkforge("doctor", "arm", cwd=tmp_path / "src" / "robot", **NO_PACKAGES)
     assert done.returncode == 1
-    assert "there is one near here; write --package arm=../arm, or declare it in `packages`" in done.stdout
+    assert "there is one nearby; write --package arm=../arm, or declare it in `packages`" in done.stdout
 
 
 def test_a_misspelt_package_and_a_misspelt_file_are_suggested(tmp_path: Path):
@@ -89,7 +102,7 @@ def test_a_common_ending_makes_no_package_a_misspelling_of_another(tmp_path: Pat
     scout = package(tmp_path / "src" / "scout_description", "scout_description")
     done = linkforge("doctor", "ur_description", cwd=scout, **NO_PACKAGES)
     assert done.returncode == 1
-    assert "no package.xml near here has the name 'ur_description'\n" in done.stdout
+    assert "no package.xml nearby has the name 'ur_description'\n" in done.stdout
 
 
 def test_a_spec_has_the_packages_that_it_names_and_declares(tmp_path: Path):

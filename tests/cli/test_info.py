@@ -61,11 +61,11 @@ mass            6.02 kg
 centre of mass  [0, 0, 0.002658] m in base, every joint at 0
 reach           at most 0.85 m, carriage from base
 size            0.2 x 0.2 x 0.87 m, every joint at 0; from [-0.1, -0.1, -0.05] to [0.1, 0.1, 0.82]
-                without 1 mesh: package 'nowhere' is not found; say where it is with `--package
+                without 1 mesh: package 'nowhere' is not found; specify its folder with `--package
                 nowhere=FOLDER`
 meshes          1 file, 0 bytes
                 missing  package://nowhere/upper.stl
-                package 'nowhere' is not found; say where it is with `--package nowhere=FOLDER`
+                package 'nowhere' is not found; specify its folder with `--package nowhere=FOLDER`
 sensors         eye: camera of carriage
 hardware        drive: system mock_components/GenericSystem of lift
 controllers     mover: joint_trajectory_controller/JointTrajectoryController of lift

@@ -76,7 +76,7 @@ def test_a_missing_mesh_is_an_error_at_its_place(tmp_path: Path):
     assert (done.returncode, done.stdout) == (1, "")
     assert (
         "robot.robot.yaml:4:28: error: the mesh 'package://hand_description/hand.stl' of a collision cannot be opened, "
-        "so its link cannot be sampled: package 'hand_description' is not found; say where it is with "
+        "so its link cannot be sampled: package 'hand_description' is not found; specify its folder with "
         "`--package hand_description=FOLDER` [LF7701]" in done.stderr
     )
 

@@ -258,8 +258,8 @@ def test_a_mesh_of_an_unknown_package_names_the_package(tmp_path: Path):
     robot = compiled_in(tmp_path, f"links: {{base: {{visual: [{visuals}]}}}}")
     (found,) = group_alike(MJCF.limits(robot, {}))
     assert found.message == (
-        f"mesh '{files[0]}' is omitted from the MJCF: package 'unknown_description' is not found; say where it is with "
-        f"`--package unknown_description=FOLDER`; the same for '{files[1]}', '{files[2]}', '{files[3]}', "
+        f"mesh '{files[0]}' is omitted from the MJCF: package 'unknown_description' is not found; specify its folder "
+        f"with `--package unknown_description=FOLDER`; the same for '{files[1]}', '{files[2]}', '{files[3]}', "
         f"'{files[4]}' and 3 more"
     )
 

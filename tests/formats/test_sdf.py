@@ -291,9 +291,9 @@ def test_a_file_that_is_not_found_is_reported_where_files_are_requested():
     assert reported(text) == []
     assert reported(text, meshes="file") == [
         "LF7508 the URI of mesh 'package://gone/base.stl' stays in the SDF: package 'gone' is not found; "
-        "say where it is with `--package gone=FOLDER`",
+        "specify its folder with `--package gone=FOLDER`",
         "LF7508 the URI of texture 'package://gone/rust.png' stays in the SDF: package 'gone' is not found; "
-        "say where it is with `--package gone=FOLDER`",
+        "specify its folder with `--package gone=FOLDER`",
     ]
     assert "<uri>model://gone/base.stl</uri>" in rendered(text, meshes="file")
 

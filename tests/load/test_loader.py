@@ -190,12 +190,12 @@ def test_a_sibling_package_is_not_read_but_suggested(tmp_path, monkeypatch):
     [fault] = compile_file("arm.robot.yaml").diagnostics
     assert fault.code.id == "LF3005"
     # `packages` of the spec would lead out of what may be read.
-    assert fault.message == "no package named 'gripper'; say where it is with --package gripper=FOLDER"
+    assert fault.message == "no package named 'gripper'; specify its folder with --package gripper=FOLDER"
     assert [note.message for note in fault.notes] == ["there is one; write --package gripper=../hands/gripper"]
     assert compile_file("arm.robot.yaml", packages={"gripper": "../hands/gripper"}).robot
     (tmp_path / ".git").mkdir()
     [fault] = compile_file("arm.robot.yaml").diagnostics
-    assert "say where it is with 'packages' of this file or --package gripper=FOLDER" in fault.message
+    assert "specify its folder with 'packages' of this file or --package gripper=FOLDER" in fault.message
 
 
 def test_the_option_for_a_package_can_be_pasted_where_its_folder_has_a_space(tmp_path, monkeypatch):

@@ -79,7 +79,7 @@ def test_files_of_a_missing_package_are_reported_and_found_with_package(arm: Pat
     file.write_text(f'{HEAD} name="$(arg name)"><xacro:arg name="name" default="c"/><xacro:include '
                     'filename="$(find parts)/urdf/parts.xacro"/></robot>', "utf-8")  # fmt: skip
     listing, [diagnostic] = parameters_of(file)
-    assert "no package named 'parts'; say where it is with --package parts=FOLDER" in diagnostic.message
+    assert "no package named 'parts'; specify its folder with --package parts=FOLDER" in diagnostic.message
     assert [(one.name, one.is_required) for one in listing.parameters] == [("name", True)], "xacro comes too late to it"
     listing, diagnostic = parameters_of(file, packages={"parts": arm.parent})
     assert ([one.name for one in listing.parameters], diagnostic) == (["name", "mass"], ())

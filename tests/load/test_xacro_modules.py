@@ -148,7 +148,7 @@ def test_a_package_that_is_not_sourced_is_reported_in_the_xacro_with_its_folder(
     (tmp_path / "parts" / "package.xml").write_text("<package><name>arm_parts</name></package>")
     monkeypatch.chdir(tmp_path)
     [fault] = compile_file("vendor/urdf/arm.urdf.xacro").diagnostics
-    assert fault.message == "no package named 'arm_parts'; say where it is with --package arm_parts=FOLDER"
+    assert fault.message == "no package named 'arm_parts'; specify its folder with --package arm_parts=FOLDER"
     assert [note.message for note in fault.notes] == ["there is one; write --package arm_parts=parts"]
 
 

@@ -41,6 +41,7 @@ examples:
 
 _MOST_NAMES = 12
 _SPEC_ENDINGS = {".yaml", ".yml", ".urdf", ".xacro", ".xml"}
+_KNOWN_AS = {"distributed": "distributed (Dask)", "pin": "pin (Pinocchio)"}
 _NAMED = re.compile(r"package://([\w.-]+)|\$\(find ([\w.-]+)\)")
 _VARIABLES = ("LINKFORGE_BROWSER", "LINKFORGE_DEBUG", "LINKFORGE_LIMITS", "LINKFORGE_NO_XACRO")
 
@@ -111,9 +112,9 @@ def _about_installation() -> Iterator[str]:
     yield f"  schemas and templates in {data_folder()}"
     yield from _about_requirements()
     yield ""
-    yield "packages of ROS"
+    yield "ROS packages"
     for variable in ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH"):
-        yield _row(variable, os.environ.get(variable) or "not set; a setup.bash of ROS or of your workspace sets it")
+        yield _row(variable, _folders_of(variable) or "not set; the setup.bash of ROS or of your workspace sets it")
     found = sorted(packages_in_environment())
     more = f" and {len(found) - _MOST_NAMES} more" if len(found) > _MOST_NAMES else ""
     yield _row("found", f"{len(found)}: {', '.join(found[:_MOST_NAMES])}{more}" if found else "none")
@@ -123,21 +124,27 @@ def _about_installation() -> Iterator[str]:
         yield _row(variable, os.environ.get(variable, "not set"))
 
 
+def _folders_of(variable: str) -> str:
+    """Return the folders that a variable lists, with those that do not exist marked; "" without any."""
+    folders = filter(None, os.environ.get(variable, "").split(os.pathsep))
+    return os.pathsep.join(folder if Path(folder).is_dir() else f"{folder} (no such folder)" for folder in folders)
+
+
 def _about_requirements() -> Iterator[str]:
     from linkforge_compile.installation import requirements
 
     needed = requirements()
     yield ""
-    yield "needed"
+    yield "required"
     for one in needed.get("", ()):
         yield _row(one.name, one.version or f"missing; pip install '{one.name}{one.versions}'")
     if not needed:
-        yield _row("", "unknown: pip did not install linkforge, or not whole")
+        yield _row("", "unknown: pip did not install linkforge completely")
     yield ""
     yield "extras"
     for extra, packages in sorted(needed.items()):
         if extra and extra not in ("dev", "docs") and packages:
-            missing = [one.name for one in packages if one.version is None]
+            missing = [_KNOWN_AS.get(one.name, one.name) for one in packages if one.version is None]
             way_out = f"no {', '.join(missing)}; pip install 'linkforge-compile[{extra}]'"
             yield _row(extra, way_out if missing else ", ".join(f"{one.name} {one.version}" for one in packages))
     yield _row("view", _about_viewer())
@@ -148,7 +155,7 @@ def _about_viewer() -> str:
     from linkforge_compile.view.picture import PictureError, find_browser
 
     if not view_page_file().is_file():
-        return "no page, because there was no npm when linkforge was built"
+        return "no page, because npm was not installed when linkforge was built"
     try:
         return f"pictures are drawn by {find_browser()[0]}"
     except PictureError as error:
@@ -192,12 +199,12 @@ def _ways_out(name: str, search: _Search) -> Iterator[str]:
 
     nearby = packages_around(search.start, ANYWHERE, {})
     if name in nearby:
-        yield f"there is one near here; write --package {name}={shortest(nearby[name])}, or declare it in `packages`"
+        yield f"there is one nearby; write --package {name}={shortest(nearby[name])}, or declare it in `packages`"
         return
     known = {**packages_in_environment(), **search.declared, **nearby}
     like = nearest(name, known)
     is_likely = like is not None and is_misspelling(name, like)  # most names end alike, in `_description`
-    yield f"no package.xml near here has the name '{name}'" + (f"; did you mean '{like}'?" if is_likely else "")
+    yield f"no package.xml nearby has the name '{name}'" + (f"; did you mean '{like}'?" if is_likely else "")
     yield f"if you have it elsewhere, write --package {name}=FOLDER, declare it in `packages`, or source its workspace"
 
 

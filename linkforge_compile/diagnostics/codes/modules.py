@@ -14,9 +14,9 @@ NOT_A_SPEC = Code("LF3003", _E, "a module is a .robot.yaml, .urdf or .xacro file
 UNKNOWN_PACKAGE = Code(
     "LF3005",
     _E,
-    "no package named '{name}'; say where it is with {way}",
+    "no package named '{name}'; specify its folder with {way}",
     _VALUE,
-    in_xml="no package named '{name}'; say where it is with --package {name}=FOLDER",
+    in_xml="no package named '{name}'; specify its folder with --package {name}=FOLDER",
 )
 USE_OF_NOWHERE = Code("LF3006", _E, "'{path}' cannot be found: {reason}", _VALUE)
 NO_SPEC_BELOW = Code("LF3067", _E, "there is no spec, NAME.robot.yaml, in the folder '{path}' or below it")
