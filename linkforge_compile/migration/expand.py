@@ -225,8 +225,8 @@ class Expander(Evaluator):
         marks = len(properties), len(macros)
         try:
             content = self.walk(element.content, context)
-        except MissingFileError:
-            raise NotConstantError(symbols_in(test)) from None  # the specs have only the outcome without it
+        except MissingFileError as error:  # the specs have only the outcome without it
+            raise NotConstantError(symbols_in(test), error.reason) from None
         except UndefinedError:
             content = []  # authors refuse a value by calling a macro that does not exist
         # A condition around this one sees what they were before.

@@ -169,9 +169,12 @@ class FileMaker:
             return merger.merged(group.atoms, found)
         except CannotMergeError as error:
             symbols = frozenset().union(*map(symbols_in, group.atoms.values()))
-            if symbols:
-                raise NotConstantError(symbols) from None
-            raise CannotTranslateError(f"alternatives of '{error.key}'") from None
+            reason, origin = f"alternatives of '{error.key}'", group.placed[0].element.origin
+            if not symbols:
+                raise CannotTranslateError(reason) from None
+            needed = NotConstantError(symbols, reason)
+            needed.where = origin.span if origin else None
+            raise needed from None
 
     def _merged_raw(
         self, group: Group, raw: Sequence[tuple[Mapping[str, bool], YamlNode | None]], merger: Merger

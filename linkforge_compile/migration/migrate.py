@@ -9,6 +9,7 @@ from itertools import chain, count
 from pathlib import Path
 from typing import TypedDict
 
+from linkforge_compile.diagnostics import Note
 from linkforge_compile.migration.attachment import (
     find_attachment,
     outer_parts,
@@ -47,7 +48,6 @@ from linkforge_compile.migration.symbols import (
     value_of,
 )
 from linkforge_compile.migration.template import FileDraft, Spec, split
-from linkforge_compile.source import Span
 from linkforge_compile.source.xml_tree import XmlElement
 
 _MOST_ROUNDS = 20
@@ -119,8 +119,8 @@ class Constraints:
     inline: Mapping[XmlElement, str] = field(default_factory=dict)
     """Why macros are no modules, by their bodies."""
     pinned: frozenset[str] = frozenset()
-    needed: Mapping[str, Span | None] = field(default_factory=dict)
-    """Where the values of these arguments are needed, as far as that is known."""
+    needed: Mapping[str, Note] = field(default_factory=dict)
+    """Where the values of these arguments are needed."""
     keeps_raw: bool = False
     """Whether parts that are valid for some outcomes of conditions only are kept for others, as raw XML."""
     computed: frozenset[Place] = frozenset()
@@ -154,7 +154,8 @@ class Translator:
                 names = {symbol.wish for symbol in sources_of(error.symbols) if symbol.is_argument}
                 if names <= constraints.pinned:
                     raise CannotTranslateError(f"a value that depends on {error}") from None
-                needed = {**constraints.needed, **dict.fromkeys(names, error.where)}
+                note = Note(f"its value is needed here{f': {error.reason}' if error.reason else ''}", error.where)
+                needed = {**constraints.needed, **dict.fromkeys(names, note)}
                 constraints = replace(constraints, inline=inline, pinned=constraints.pinned | names, needed=needed)
         raise CannotTranslateError("it has no equivalent in the language")
 

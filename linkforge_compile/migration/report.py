@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     ELEMENT_LEFT_OUT,
@@ -148,7 +148,7 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         symbol = migration.expander.arguments[name]
         value = str(symbol.constant)
         needed = migration.constraints.needed.get(name)
-        notes = [Note("its value is needed here", needed)] if needed else []
+        notes = [needed] if needed and needed.span else []
         yield ARGUMENT_PINNED.at(
             symbol.where, name=name, value=value.lower() if isinstance(symbol.constant, bool) else value, notes=notes
         )

@@ -19,10 +19,13 @@ NUMBER, BOOLEAN, TEXT, VECTOR, MAP, LIST, UNKNOWN = "number", "boolean", "text",
 
 
 class NotConstantError(Exception):
-    """A value is needed at once, but depends on arguments: on the names `symbols`, at `where` if that is known."""
+    """A value is needed at once, but depends on arguments: on the names `symbols`, at `where` if that is known.
 
-    def __init__(self, symbols: frozenset[Symbol]) -> None:
-        self.symbols = symbols
+    `reason` says why, if it is not that nothing in the language depends on them as this does.
+    """
+
+    def __init__(self, symbols: frozenset[Symbol], reason: str = "") -> None:
+        self.symbols, self.reason = symbols, reason
         self.where: Span | None = None
         super().__init__(", ".join(sorted(symbol.wish for symbol in symbols)))
 

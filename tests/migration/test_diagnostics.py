@@ -197,7 +197,7 @@ def test_a_condition_around_a_file_that_is_not_there_keeps_its_outcome(tmp_path:
     )
     ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
     assert "'arm' is 'false' in the specs" in ran.stderr  # LF8042
-    assert "robot.xacro:3:1: note: its value is needed here" in ran.stderr
+    assert "robot.xacro:3:1: note: its value is needed here: no package named 'no_package'" in ran.stderr
     spec = (tmp_path / "robot.robot.yaml").read_text("utf-8")
     assert "arm: {type: boolean, default: false, enum: [false]}" in spec
 
