@@ -15,6 +15,7 @@ _SHORT = 100
 
 _EXPRESSION = re.compile(r"(\$\((?:[^()']|'[^']*'|\((?:[^()]|\([^()]*\))*\))*\))")
 _NAME_PARTS = re.compile(r"(?<=_)|(?=_)")
+_WORD = re.compile(r"[A-Za-z]\w*")
 
 
 def with_loops(entries: YamlMap, item: str, taken: Collection[str]) -> tuple[YamlMap, dict[YamlNode, YamlNode]]:
@@ -36,35 +37,37 @@ def with_loops(entries: YamlMap, item: str, taken: Collection[str]) -> tuple[Yam
 
 def _first_group(entries: Sequence[YamlEntry], item: str, moved: dict[YamlNode, YamlNode]) -> tuple[int, YamlEntry]:
     """Return how many of the first entries are alike, and the entry for them."""
-    for size in range(len(entries), _FEWEST - 1, -1):
-        group = entries[:size]
-        words = _different(group)
-        if not words or len(_text_of(group[0])) < _SHORT:
-            continue
-        copies: list[dict[YamlNode, YamlNode]] = [{} for _ in group]
-        made = [_template(one, word, item, copy) for one, word, copy in zip(group, words, copies, strict=True)]
-        first = made[0]
-        if first is not None and all(one is not None and _text_of(one) == _text_of(first) for one in made):
-            moved |= copies[0]
-            where = first.value.span
-            values = YamlList(tuple(scalar(word, where) for word in words), where)
-            loop = map_of({"for": map_of({item: values}, where)}, where)
-            body = first.value.entries if isinstance(first.value, YamlMap) else {}
-            return size, YamlEntry(first.key, YamlMap({**loop.entries, **body}, where))
-    return 1, entries[0]
+    first = entries[0]
+    names = [_NAME_PARTS.split(one.name) for one in entries[:_FEWEST]]
+    if len(names) < _FEWEST or len(_text_of(first)) < _SHORT:
+        return 1, first
+    start = _common(names)
+    ends = _common([name[start:][::-1] for name in names])
+    head, tail = names[0][:start], names[0][len(names[0]) - ends :]
+    words: list[str] = []
+    copy: dict[YamlNode, YamlNode] = {}
+    made: YamlEntry | None = None
+    for one in entries:
+        name = _NAME_PARTS.split(one.name)
+        word = "".join(name[start : len(name) - ends])
+        is_like = name[:start] == head and name[len(name) - ends :] == tail and _WORD.fullmatch(word)
+        own = _template(one, word, item, {} if made else copy) if is_like and word not in words else None
+        if own is None or (made is not None and _text_of(own) != _text_of(made)):
+            break
+        made = made or own
+        words.append(word)
+    if made is None or len(words) < _FEWEST:
+        return 1, first
+    moved |= copy
+    where = first.value.span
+    values = YamlList(tuple(scalar(word, where) for word in words), where)
+    loop = map_of({"for": map_of({item: values}, where)}, where)
+    body = made.value.entries if isinstance(made.value, YamlMap) else {}
+    return len(words), YamlEntry(made.key, YamlMap({**loop.entries, **body}, where))
 
 
 def _text_of(entry: YamlEntry) -> str:
     return write(YamlMap({entry.name: entry}, entry.value.span))
-
-
-def _different(group: Sequence[YamlEntry]) -> list[str]:
-    """Return the parts in which names differ, of whole words between underscores; none if they are not such words."""
-    names = [_NAME_PARTS.split(entry.name) for entry in group]
-    start = _common(names)
-    ends = _common([name[start:][::-1] for name in names])
-    words = ["".join(name[start : len(name) - ends]) for name in names]
-    return words if all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words) and len({*words}) == len(words) else []
 
 
 def _common(names: Sequence[Sequence[str]]) -> int:

@@ -29,6 +29,8 @@ class _Declared:
 
     spec: Spec
     entries: Mapping[_Key, YamlEntry]
+    loops: frozenset[str]
+    """The names that `for` gives in it."""
 
     @staticmethod
     def of(spec: Spec) -> _Declared:
@@ -40,14 +42,14 @@ class _Declared:
                 if section != "variables" or place != _NOWHERE:
                     text = write(map_of({entry.name: entry.value}, entry.value.span))
                     entries[section, entry.name, text, place if section == "variables" else _NOWHERE] = entry
-        return _Declared(spec, entries)
+        return _Declared(spec, entries, _loops(spec.tree))
 
     def is_free(self, key: _Key) -> bool:
         """Whether a name means nothing else in the spec."""
         section, name, *_ = key
         sections = ("materials",) if section == "materials" else _NAMES
         tree = self.spec.tree
-        return key in self.entries or not (any(name in tree.section(one) for one in sections) or name in _loops(tree))
+        return key in self.entries or not (any(name in tree.section(one) for one in sections) or name in self.loops)
 
     def is_alone(self, key: _Key, shared: Collection[_Key]) -> bool:
         """Whether a value that the spec declares needs nothing but what is shared as well."""
