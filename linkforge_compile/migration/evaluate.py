@@ -59,7 +59,7 @@ class Context:
     symbols: Table[Property]
     calls: tuple[Called, ...] = ()
     is_inside: bool = False
-    """Whether an element is around."""
+    """Whether the walk is inside an element."""
 
 
 @dataclass(eq=False)
