@@ -117,8 +117,8 @@ def test_a_name_of_for_is_renamed_in_its_entry(editor: Editor, robot: Path):
     [
         ("half", "half"),
         ("sqrt", "sqrt"),
-        ("a-b", "no name that expressions can use"),
-        ("1st", "no name that expressions can use"),
+        ("a-b", "not a name that expressions can use"),
+        ("1st", "not a name that expressions can use"),
     ],
 )
 def test_a_new_name_that_cannot_be_is_refused(editor: Editor, robot: Path, new: str, reason: str):
