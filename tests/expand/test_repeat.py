@@ -144,7 +144,7 @@ def test_copies_with_the_same_name_are_reported():
 )
 def test_the_work_of_for_is_bounded(written: str):
     names = "".join(f"_$({name})" for name in "ijk" if f"{name}:" in written.partition("visual")[0])
-    with pytest.raises(BeyondLimitError, match="more than 50,000 rounds of 'for'"):
+    with pytest.raises(BeyondLimitError, match="more than 50,000 iterations of 'for'"):
         assemble(f"links: {{a{names}: {written}}}")
 
 
