@@ -194,14 +194,20 @@ def _role_outside(role: Role, called: Macro, call: XmlElement) -> Role | None:
 
 
 _EXPRESSION = re.compile(r"\$\{([^}]*)\}")
+_HALF_OR_TWICE = r"(?<![\d.])(?:0?\.5|2(?:\.0*)?)(?![\d.])"
 
 
 def dimension_of(parameter: str, macro: Macro) -> tuple[Dimension, Span] | None:
-    """Return the dimension of the first attribute that is a multiple of a parameter or a sum with it, and its place."""
-    multiple = re.compile(rf"[-+*\d.\s(]*\b{re.escape(parameter)}\b[-+*/\d.\s)]*")
+    """Return the dimension of a parameter, by the first attribute that has it, and the place of that.
+
+    The attribute may have half of it, twice of it, or the sum with a number. Another factor may have a dimension of its
+    own: `${length * 1.5}` may be the mass of a profile.
+    """
+    scaled = rf"(?:{_HALF_OR_TWICE}\s*\*\s*)?\b{re.escape(parameter)}\b(?:\s*[*/]\s*{_HALF_OR_TWICE})?"
+    own = re.compile(rf"[-+\d.\s(]*{scaled}[-+\d.\s)]*")
     for element in macro.element.walk():
         for name, attribute in element.attributes.items():
             dimension = DIMENSIONS.get((element.tag, name))
-            if dimension and any(map(multiple.fullmatch, _EXPRESSION.findall(element.values[name]))):
+            if dimension and any(map(own.fullmatch, _EXPRESSION.findall(element.values[name]))):
                 return dimension, attribute.span
     return None

@@ -70,3 +70,23 @@ def test_what_is_wrong_with_the_xml_of_a_block_is_told(block: str, problem: str,
     (fault,) = _diagnostics(tmp_path, f"height: 1, extra: '{block}'")
     assert fault.code.id == "LF8036"
     assert [note.message for note in fault.notes] == [problem]
+
+
+@pytest.mark.parametrize("given", ["length: 500 mm, density: 2700 kg/m^3", "length: 500 mm, density: 2700"])
+def test_a_factor_may_have_a_dimension_of_its_own(given: str, tmp_path: Path):
+    """The mass of a profile is its length times a mass per metre, or its density times a volume."""
+    macro = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="profile" params="length density">
+      <link name="bar"><inertial><mass value="${length * 1.5}"/><inertia ixx="1" iyy="1" izz="1"/></inertial>
+        <visual><geometry><box size="1 1 ${2*length}"/></geometry></visual></link>
+      <link name="block"><inertial><mass value="${0.001 * density}"/>
+        <inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+      <joint name="j" type="fixed"><parent link="bar"/><child link="block"/></joint>
+    </xacro:macro></robot>"""
+    (tmp_path / "profile.xacro").write_text(macro, "utf-8")
+    entry = f"{{use: profile.xacro, macro: profile, with: {{{given}}}}}"
+    (tmp_path / "robot.robot.yaml").write_text(f"linkforge: 1\nname: robot\nmodules: {{bar: {entry}}}\n", "utf-8")
+    assert not [one for one in compile_file(tmp_path / "robot.robot.yaml").diagnostics if one.code.id == "LF5002"]
+    faulty = entry.replace("500 mm", "3 kg")
+    (tmp_path / "robot.robot.yaml").write_text(f"linkforge: 1\nname: robot\nmodules: {{bar: {faulty}}}\n", "utf-8")
+    (fault,) = [one for one in compile_file(tmp_path / "robot.robot.yaml").diagnostics if one.code.id == "LF5002"]
+    assert fault.message == "'length' takes a length, found '3 kg', which is a mass"

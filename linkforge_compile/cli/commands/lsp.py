@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from typing import TYPE_CHECKING, NoReturn
 
@@ -9,7 +10,6 @@ from linkforge_compile.cli import OK, UsageError
 
 if TYPE_CHECKING:
     import argparse
-import gc
 
 _EXAMPLES = """\
 Editors start it; docs/editors.md describes the set-up of each. It communicates over standard input and output, or with
