@@ -18,12 +18,14 @@ _OPTIONS = {
     "sample": "--sample",
     "seed": "--seed",
     "formats": "--format",
+    "packages": "--package",
+    "allow_outside": "--allow-outside",
     "chunk": "--chunk",
     "output": "--pack or --table-only",
 }
 """Entries that the command has an option for, under another name."""
 
-_FOLLOWING = ("points", "robots", "chunk")
+_FOLLOWING = ("points", "robots", "chunk", "function_source")
 """Entries that follow from others, unless they are all that differs."""
 
 
@@ -46,6 +48,8 @@ def differences(theirs: Mapping[str, Any], ours: Mapping[str, Any], words: Wordi
 def _difference(name: str, theirs: Any, ours: Any) -> str:
     if name == "values":  # a digest
         return "another table, or none" if None in (theirs, ours) else "the table changed"
+    if name == "function_source":
+        return "it changed"
     before, now = _beyond(theirs, ours), _beyond(ours, theirs)
     if before == now:  # in another order
         before, now = theirs, ours
@@ -55,6 +59,8 @@ def _difference(name: str, theirs: Any, ours: Any) -> str:
 def _named(entry: str, words: Wording) -> str:
     if entry == "linkforge":
         return "the version of linkforge"
+    if entry == "function_source":
+        return "function"
     if words.is_python:
         return "grid" if entry == "set" else entry
     return _OPTIONS.get(entry, entry)

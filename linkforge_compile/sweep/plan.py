@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from array import array
 from collections.abc import Callable, Mapping, Sequence
 from hashlib import sha256
@@ -25,7 +26,7 @@ from linkforge_compile.sweep.rows import reserved_columns
 from linkforge_compile.sweep.store import Chunk
 from linkforge_compile.sweep.value_table import read_values
 from linkforge_compile.sweep.wording import Wording
-from linkforge_compile.sweep.work import Request
+from linkforge_compile.sweep.work import Function, Request
 
 _CHUNK = 100
 """The most points of a chunk; a sweep of few points has smaller ones, for several workers."""
@@ -56,7 +57,12 @@ class Choice(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A sweep that can be run: `kept` are the indices of the points that fulfil `where`, None for all."""
+    """A sweep that can be run.
+
+    - `kept`: the indices of the points that fulfil `where`, None for all.
+    - `values_digest`: the digest of the table of values as the points have it, None without one.
+    - `function_source`: the digest of the text of the user's function, None where Python does not have it.
+    """
 
     request: Request
     choice: Choice
@@ -64,6 +70,8 @@ class Plan(NamedTuple):
     kept: Sequence[int] | None
     chunk: int
     has_variants: bool
+    values_digest: str | None = None
+    function_source: str | None = None
 
     @property
     def size(self) -> int:
@@ -88,7 +96,7 @@ class Plan(NamedTuple):
             "parameters": list(request.parameters),
             "set": list(choice.sets),
             "variants": list(choice.variants),
-            "values": _digest_of(choice.values),
+            "values": self.values_digest,
             "where": choice.where,
             "sample": choice.sample,
             "seed": choice.seed if choice.sample is not None else None,
@@ -96,9 +104,12 @@ class Plan(NamedTuple):
             "robots": self.size,
             "formats": list(request.formats),
             "options": dict(request.options),
+            "packages": dict(request.packages),
+            "allow_outside": request.allow_outside,
             "chunk": self.chunk,
             "output": packing,
             "function": getattr(function, "__qualname__", repr(function)) if function else None,
+            "function_source": self.function_source,
         }
 
 
@@ -131,7 +142,8 @@ def plan_of(request: Request, choice: Choice, checked: Callable[[int, int], None
     kept = None if choice.where is None else _kept(choice, request, points, checked)
     count = len(points) if kept is None else len(kept)
     chunk = choice.chunk or max(1, min(_CHUNK, -(-count // _CHUNKS)))
-    return Plan(request, choice, points, kept, chunk, has_variants)
+    digests = _digest_of(choice.values), _source_digest(request.function)
+    return Plan(request, choice, points, kept, chunk, has_variants, *digests)
 
 
 def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Diagnostics) -> Varied:
@@ -150,6 +162,11 @@ def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Dia
         if twice := set(columns).intersection(parameters):
             raise SweepError(
                 f"'{min(twice)}' is varied by {words.varied(min(twice), '…')} and by a column of '{choice.values}'"
+            )
+        if VARIANT in axis.names and choice.variants:
+            raise SweepError(
+                f"{words.option('variants' if words.is_python else 'variant')} and a column of '{choice.values}' both "
+                "select variants; leave one of them out"
             )
         axes, parameters = [*axes, axis], parameters | dict(columns)
     if len(choice.variants) > 1:
@@ -219,6 +236,13 @@ def _kept(choice: Choice, request: Request, points: Points, checked: Callable[[i
 
 def _digest_of(path: Path | None) -> str | None:
     return None if path is None else sha256(path.read_bytes()).hexdigest()
+
+
+def _source_digest(function: Function | None) -> str | None:
+    try:
+        return sha256(inspect.getsource(function).encode()).hexdigest() if function else None
+    except (OSError, TypeError):  # of an interactive session, or an object that can be called
+        return None
 
 
 def _shown(path: str, folder: str) -> str:

@@ -86,7 +86,8 @@ class Cluster:
         try:
             result: list[Made] = future.result()
         except KilledWorker as error:
-            raise SweepError(f"{RETRIES} workers were lost with the same robots; is there enough memory?") from error
+            lost = error.allowed_failures + 1
+            raise SweepError(f"{lost} workers were lost with the same robots; is there enough memory?") from error
         except CancelledError as error:
             raise SweepError("the connection to the scheduler was lost; --resume continues") from error
         except SweepError:

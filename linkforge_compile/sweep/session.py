@@ -17,6 +17,7 @@ from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.points import Point
 from linkforge_compile.sweep.scheduler import Cluster
 from linkforge_compile.sweep.store import Chunk, Store, chunks_of
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import ABOUT_FILES, Made, Request, compile_point, files_of, make, make_all
 
 Progress = Callable[[int, int], None]
@@ -49,16 +50,18 @@ def execute(
     plan: Plan, store: Store, place: Place, packing: str, *, resume: bool, progress: Progress = lambda _done, _bad: None
 ) -> Summary:
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
-    files = collect_files(plan)
+    files, words = collect_files(plan), plan.choice.words
+    later = f"once it can be written, {words.resuming} continues"
     with _write_errors(store.folder, "choose another folder"):
-        done = store.begin(plan.manifest(files.bundle, packing), plan.choice.words, resume=resume)
+        done = store.begin(plan.manifest(files.bundle, packing), words, resume=resume)
     summary = Summary(plan.size)
     if not store.is_finished:
         todo = [chunk for chunk in chunks_of(plan.size, plan.chunk) if chunk not in done]
         count, failed = plan.size - sum(chunk.end - chunk.begin for chunk in todo), 0
         progress(count, failed)
         for chunk, made, bundle in _results(plan, files, place, todo):
-            with _write_errors(store.folder):
+            with _write_errors(store.folder, later):
+                _require_unchanged(bundle, words)
                 if bundle is not files.bundle:
                     files = files._replace(bundle=bundle)
                     store.update(plan.manifest(bundle, packing))
@@ -67,21 +70,26 @@ def execute(
             failed += sum(bool(one.row["errors"]) for one in made)
             summary.compiled += len(made)
             progress(count, failed)
-        if changed := changed_files(files.bundle.files):
-            raise SweepError(f"'{changed[0]}' changed while the sweep ran; remove the folder, and start it again")
-        with _write_errors(store.folder):
+        with _write_errors(store.folder, later):
             store.finish()
     summary.failed, summary.groups = _grouped(plan, store)
     return summary
 
 
 @contextmanager
-def _write_errors(folder: Path, way_out: str = "once it can be written, --resume continues") -> Iterator[None]:
+def _write_errors(folder: Path, way_out: str) -> Iterator[None]:
     """Turn an error of the system, such as a full disk, into a SweepError."""
     try:
         yield
     except OSError as error:
         raise SweepError(f"cannot write to '{folder}': {error.strerror or error}; {way_out}") from error
+
+
+def _require_unchanged(bundle: Bundle, words: Wording) -> None:
+    """Refuse robots that may be of another text than those in the folder, which then are all of one."""
+    if changed := changed_files(bundle.files):
+        ways = f"restore it, and {words.resuming} continues, or remove the folder and start again"
+        raise SweepError(f"'{changed[0]}' changed while the sweep ran; {ways}")
 
 
 def collect_files(plan: Plan) -> Files:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
@@ -99,7 +100,7 @@ def make(request: Request, point: Point, tree: Tree | None = None) -> Made:
             files = _render(request, robot, hide)
             row |= figures_row(robot) | {"digest": digest_of(files)}
         except RobotModelError as error:  # a robot that a requested format cannot hold
-            row, files = row | _failed(str(error)), {}
+            row, files = row | _failed(str(error), row), {}
         else:
             row |= _apply(request.function, robot, values, row) if request.function else {}
     return Made(point, row, files if request.has_files else {}, is_about_files, () if tree else files_of(compilation))
@@ -150,7 +151,7 @@ def _apply(function: Function, robot: Robot, values: Mapping[str, object], row: 
         columns = found if isinstance(found, Mapping) else {} if found is None else {"result": found}
         return _checked_columns(columns, row)
     except Exception as error:  # the user's own code may raise anything, and the sweep continues
-        return _failed(f"the function raised {type(error).__name__}: {error}")
+        return _failed(f"the function raised {type(error).__name__}: {error}", row)
 
 
 def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
@@ -167,8 +168,7 @@ def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
     return checked
 
 
-def _failed(message: str) -> Row:
-    listed: list[dict[str, object]] = [
-        {"severity": "error", "code": None, "message": message, "file": None, "line": None, "column": None}
-    ]
-    return counted(listed)
+def _failed(message: str, row: Row) -> Row:
+    """Return the columns of diagnostics of a row with one more, an error without a place."""
+    fault = {"severity": "error", "code": None, "message": message, "file": None, "line": None, "column": None}
+    return counted([*json.loads(str(row["diagnostics"])), fault])

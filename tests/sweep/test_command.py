@@ -7,6 +7,7 @@ import re
 import shutil
 import tarfile
 import zipfile
+from collections.abc import Mapping, Sequence
 from errno import ENOSPC
 from pathlib import Path
 
@@ -14,10 +15,12 @@ import pyarrow.parquet
 import pytest
 
 from linkforge_compile import compile_file, render_urdf
+from linkforge_compile.sweep import SweepError, run
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.session import Summary
 from linkforge_compile.sweep.store import Chunk, Store
+from linkforge_compile.sweep.work import Made
 from tests.cli.in_process import linkforge
 from tests.sweep.specs import ARM, write_arm
 
@@ -220,6 +223,92 @@ def test_an_interrupted_sweep_goes_on(folder: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.undo()
     assert sweep(folder, *words, "--resume") == (0, "12 robots in out, 6 of them before\n")
     assert contents(folder / "out") == whole
+
+
+def test_a_file_that_changes_and_is_restored_leaves_no_robots_of_two_texts(folder: Path):
+    """The spec is edited while the sweep runs, and restored before it goes on."""
+    spec, edits = folder / "arm.robot.yaml", [ARM.replace("mass: 3 kg", "mass: 9 kg")]
+
+    def edit(_robot: object, values: Mapping[str, object]) -> None:
+        if values["reach"] == 1.0 and edits:
+            spec.write_text(edits.pop())
+
+    grid = {"reach": [0.5, 1.0, 1.5]}
+    with pytest.raises(SweepError, match="changed while the sweep ran; restore it"):
+        run(spec, grid, edit, output=folder / "out")
+    spec.write_text(ARM)
+    assert sorted(path.name for path in (folder / "out/robots").iterdir()) == ["000000"]
+    resumed = run(spec, grid, edit, output=folder / "out", resume=True)
+    assert resumed["robot_mass"].to_pylist() == pytest.approx([5.2, 5.2, 5.2])
+
+
+def test_a_table_of_values_that_changes_meanwhile_is_not_resumed(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    """The manifest is written again when the second robot reads another file."""
+    write_tools(folder)
+    table = folder / "points.csv"
+    table.write_text("tool\nhand\nhook\nhook\n")
+    add = Store.add
+
+    def edit(self: Store, chunk: Chunk, made: Sequence[Made]) -> None:
+        if chunk.begin == 2:
+            raise KeyboardInterrupt
+        add(self, chunk, made)
+        table.write_text("tool\nhook\nhand\nhand\n")
+
+    monkeypatch.setattr(Store, "add", edit)
+    words = ("--values", "points.csv", "--chunk", "1")
+    assert sweep(folder, *words)[0] == 130
+    monkeypatch.undo()
+    assert sweep(folder, *words, "--resume")[1].splitlines()[1:] == ["  --values: the table changed"]
+
+
+def test_another_function_is_not_resumed(folder: Path):
+    spec, grid, output = folder / "arm.robot.yaml", {"reach": [0.5, 1.0]}, folder / "out"
+
+    def score(_robot: object, _values: object) -> float:
+        return 1.0
+
+    run(spec, grid, score, output=output)
+    assert run(spec, grid, score, output=output, resume=True)["result"].to_pylist() == [1.0, 1.0]
+
+    def score(_robot: object, _values: object) -> float:
+        return 2.0
+
+    with pytest.raises(SweepError, match=r"\n  function: it changed$"):
+        run(spec, grid, score, output=output, resume=True)
+
+
+def test_an_error_of_a_function_stands_beside_the_warnings(folder: Path):
+    spec = folder / "arm.robot.yaml"
+    spec.write_text(ARM.replace("{mass: 3 kg}", "{mass: 3 kg, inertia: {ixx: 900, iyy: 900, izz: 900}}"))
+    without = run(spec, {"reach": [0.5]}).to_pylist()[0]
+    assert without["warnings"] > 0
+    failed = run(spec, {"reach": [0.5]}, lambda _robot, values: values["no"]).to_pylist()[0]
+    assert (failed["errors"], failed["warnings"]) == (1, without["warnings"])
+    *warnings, error = json.loads(failed["diagnostics"])
+    assert warnings == json.loads(without["diagnostics"])
+    assert error["message"] == "the function raised KeyError: 'no'"
+
+
+@pytest.mark.parametrize(
+    ("words", "difference"),
+    [
+        (("--package", "tools=."), "--package: nothing before, tools=. now"),
+        (("--allow-outside",), "--allow-outside: False before, True now"),
+    ],
+)
+def test_what_files_can_be_read_is_compared(folder: Path, words: tuple[str, ...], difference: str):
+    sweep(folder, "--set", "reach=0.4m,1m")
+    assert sweep(folder, "--set", "reach=0.4m,1m", *words, "--resume")[1].splitlines()[1:] == [f"  {difference}"]
+
+
+def test_variants_are_selected_in_one_way(folder: Path):
+    """Both would make each robot of the column once for each --variant."""
+    (folder / "points.csv").write_text("variant\nsim\nreal\n")
+    message = "--variant and a column of 'points.csv' both select variants; leave one of them out"
+    for names in (("sim",), ("sim", "real")):
+        words = [word for name in names for word in ("--variant", name)]
+        assert sweep(folder, "--values", "points.csv", *words) == (2, f"linkforge sweep: {message}\n")
 
 
 def test_a_sweep_that_ended_before_its_first_robot_is_in_nobodys_way(folder: Path):
