@@ -180,7 +180,9 @@ def _with_unit(link: Link, unit: str) -> Fix | None:
 def _negated(text: str) -> str | None:
     """Return a number or a quantity with the opposite sign; None for an expression or another text."""
     number = text.split(" ", maxsplit=1)[0]
-    return (text[1:] if text.startswith("-") else f"-{text}") if _NUMBER.fullmatch(number) else None
+    if not _NUMBER.fullmatch(number):
+        return None
+    return text[1:] if text.startswith("-") else f"-{text.removeprefix('+')}"
 
 
 def _change_moments(link: Link, title: str, moments: Iterable[str], change: Callable[[str], str | None]) -> Fix | None:

@@ -236,7 +236,7 @@ def check_endless_joints(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnosti
             sides = " and ".join(written)
             fault = RANGE_OF_ENDLESS_JOINT.at(joint.source, "limits", written[0], joint=joint.name, limits=sides)
             type_ = joint.source.at("type") if joint.source else None
-            out = leave_out_all(joint.source, [("limits", side) for side in written], f"leave out {sides}")
+            out = leave_out_all(joint.source, [("limits", side) for side in written], f"remove {sides}")
             yield fault.with_fix(Replacement("", JointType.REVOLUTE).within(type_), out)
 
 

@@ -205,6 +205,8 @@ def _edit(place: Span, *, is_item: bool) -> Edit | None:
             end = separator.end()
         elif text[before - 1 : before] == ",":
             begin = before - 1
+            if "#" in text[text.rfind("\n", 0, begin) + 1 : begin]:  # the comma may be in a comment
+                return None
         elif text[before - 1 : before] not in ("{", "["):
             return None
         return Edit(file.between(begin, end), "")

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from linkforge_compile import compile_text
 from linkforge_compile.checks.bounding import bounding_volume
 from linkforge_compile.core import (
     Box,
@@ -23,6 +24,7 @@ from linkforge_compile.core import (
     Visual,
 )
 from linkforge_compile.core.physics import inertial_of_shapes
+from linkforge_compile.diagnostics.fix import apply_edits
 from linkforge_compile.units import parse_quantity
 from tests.checks.robots import fixed, messages_of
 
@@ -74,6 +76,20 @@ def test_products_of_the_other_sign_are_reported(products: float):
     right = inertial_of_shapes([(BEAM, SLANTED)], mass=2.0)
     (message,) = messages_of(of(Inertial(2.0, right.origin, scaled(right.inertia, 1.0, products))))
     assert message.startswith("LF6036")
+
+
+@pytest.mark.parametrize(("written", "after"), [("0.0074", "-0.0074"), ("+0.0074", "-0.0074"), ("-0.0074", "0.0074")])
+def test_the_fix_of_products_writes_the_other_sign(written: str, after: str):
+    turn = "-45" if written.startswith("-") else "45"
+    spec = f"""linkforge: 1
+name: arm
+links:
+  base:
+    collision: {{box: [300 mm, 40 mm, 40 mm], origin: {{rpy: [0, 0, {turn} deg]}}}}
+    inertial: {{mass: 2, inertia: {{ixx: 0.0079, iyy: 0.0079, izz: 0.0153, ixy: {written}}}}}
+"""
+    (fix,) = [fix for one in compile_text(spec).diagnostics if one.code.id == "LF6036" for fix in one.fixes]
+    assert apply_edits(fix.edits[0].span.file, fix.edits) == spec.replace(f"ixy: {written}", f"ixy: {after}")
 
 
 def test_products_are_compared_in_the_axes_of_the_link():

@@ -59,6 +59,7 @@ def test_an_entry_is_left_out_with_what_separates_it(text: str, path: str, after
         ("a:\n  - b: 1\n  - b: 3\n", ("a", 0, "b")),  # nothing of the item would be left
         ("a: &x {b: 1}\nc: *x\n", ("c",)),  # the value is written at the anchor
         ("a: 1\n", ("b",)),
+        ("{a: 1, b: 2 # two,\n  , # three,\n c: 3}", ("c",)),  # the comma before it is in a comment
     ],
 )
 def test_an_entry_that_is_not_alone_in_its_place_stays(text: str, path: Sequence[str | int]):
