@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -75,7 +76,7 @@ class Store:
         elif self.folder.is_dir() and any(one.name != PARTS for one in self.folder.iterdir()):
             raise SweepError(f"'{self.folder}' has files that no sweep wrote; choose an empty or a new folder")
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.update(manifest)
+        self._write_manifest(manifest)
         if self.is_finished:
             return frozenset()
         (self.folder / PARTS).mkdir(exist_ok=True)
@@ -83,11 +84,21 @@ class Store:
 
     def update(self, manifest: Mapping[str, object]) -> None:
         """Write the manifest if it has files that the one in the folder lacks."""
+        self._require_own()
+        self._write_manifest(manifest)
+
+    def _write_manifest(self, manifest: Mapping[str, object]) -> None:
         united = with_files(manifest, self._manifest)
         if united != self._manifest:
             text = json.dumps(united, ensure_ascii=False, indent=2) + "\n"
             write_atomically(self.folder / MANIFEST, text.encode())
             self._manifest = united
+
+    def _require_own(self) -> None:
+        """Refuse to write beside another sweep, which was begun in the folder after this one."""
+        file = self.folder / MANIFEST
+        if not file.exists() or json.loads(file.read_text("utf-8")) != self._manifest:
+            raise SweepError(f"'{self.folder}' was removed, or another sweep writes to it now; choose another folder")
 
     @property
     def _has_robots(self) -> bool:
@@ -100,6 +111,7 @@ class Store:
 
     def add(self, chunk: Chunk, made: Sequence[Made]) -> None:
         """Write the robots of a chunk, then its part of the table."""
+        self._require_own()
         if self._packing == "folders":
             for one in made:
                 self._write_folder(one)
@@ -145,6 +157,7 @@ class Store:
 
     def finish(self) -> None:
         """Join the parts to the table, a few rows at a time, and remove them."""
+        self._require_own()
         pa, pq = arrow(), parquet()
         parts = sorted((self.folder / PARTS).glob("*.parquet"))
         schema = self._schema
@@ -162,6 +175,8 @@ class Store:
             rest = pa.concat_tables(waiting) if waiting else schema.empty_table()
             if len(rest) or not parts:
                 writer.write_table(rest)
+        with temporary.open("rb+") as written:
+            os.fsync(written.fileno())  # the parts are removed below
         temporary.replace(self.folder / TABLE)
         shutil.rmtree(self.folder / PARTS)
 

@@ -262,6 +262,18 @@ def test_a_table_of_values_that_changes_meanwhile_is_not_resumed(folder: Path, m
     assert sweep(folder, *words, "--resume")[1].splitlines()[1:] == ["  --values: the table changed"]
 
 
+def test_two_sweeps_do_not_write_to_one_folder(folder: Path):
+    """The second begins while the first compiles its first robot."""
+    spec, output = folder / "arm.robot.yaml", folder / "out"
+
+    def begin_another(_robot: object, _values: object) -> None:
+        run(spec, {"reach": [1.5]}, output=output)
+
+    with pytest.raises(SweepError, match=r"or another sweep writes to it now; choose another folder"):
+        run(spec, {"reach": [0.5, 1.0]}, begin_another, output=output)
+    assert pyarrow.parquet.read_table(output / "table.parquet")["reach"].to_pylist() == [1.5]
+
+
 def test_another_function_is_not_resumed(folder: Path):
     spec, grid, output = folder / "arm.robot.yaml", {"reach": [0.5, 1.0]}, folder / "out"
 
