@@ -423,6 +423,15 @@ MODULES = (
         "arm_tool0",
         "    parent: arm_tool0\n",
     ),
+    Case(  # the gripper is on the arm
+        VENDOR,
+        "    parent: pedestal",
+        "    parent: ¦",
+        "pedestal",
+        "arm_tool0 gripper_robotiq_85_base_link",
+        "pedestal",
+        "    parent: pedestal",
+    ),
 )
 
 UNITS = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from linkforge_compile.core.models.graph import child_joints, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS
@@ -24,30 +24,30 @@ def refused_names(context: Context, path: tuple[str | int, ...]) -> frozenset[st
             return frozenset(_without_own_position(context.robot))
         case ("joints", str(joint), "parent"):
             child = beside.get("child", "")
-            return frozenset({child, *_below(child, context.robot)})
+            return frozenset({child, *_below({child}, context.robot)})
         case ("joints", str(joint), "child"):
             joints = context.robot.joints if context.robot else ()
             taken = (one.child for one in joints if one.name != joint)
             return frozenset({beside.get("parent", ""), *taken})
         case ("modules", str(module), "parent"):
-            return frozenset(_links_of(module, context.robot))
+            links = _links_of(module, context.robot)
+            return frozenset({*links, *_below(links, context.robot)})
         case ("frames", str(frame), "parent"):
-            return frozenset({frame, *_below(frame, context.robot)})
+            return frozenset({frame, *_below({frame}, context.robot)})
         case ("joints" | "mount", str(joint), "mimic", "joint"):
             return frozenset({joint, *_no_leaders(joint, context.robot)})
     return frozenset()
 
 
-def _below(link: str, robot: Robot | None) -> Iterator[str]:
-    """Yield the links below a link: a joint from one of them to the link would close a cycle."""
-    yield from (joint.child for joint in walk_down([link], child_joints(robot.joints))) if robot else ()
+def _below(links: Set[str], robot: Robot | None) -> Iterator[str]:
+    """Yield the links below some links: a joint from one of them to the links would close a cycle."""
+    yield from (joint.child for joint in walk_down(links, child_joints(robot.joints))) if robot else ()
 
 
-def _links_of(module: str, robot: Robot | None) -> Iterator[str]:
-    """Yield the links of a module."""
-    for link in robot.links if robot else ():
-        if link.source and link.source.modules[:1] == (module,):
-            yield link.name
+def _links_of(module: str, robot: Robot | None) -> Set[str]:
+    """Return the links of a module."""
+    links = robot.links if robot else ()
+    return {link.name for link in links if link.source and link.source.modules[:1] == (module,)}
 
 
 def _around_group(name: str, robot: Robot | None) -> Iterator[str]:
