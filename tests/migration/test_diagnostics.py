@@ -46,11 +46,14 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     assert "with all defaults and 1 other combination, the specs give a different robot: " in ran.stderr  # LF8040
 
 
-def test_other_content_is_replaced_only_by_force(tmp_path: Path):
+@pytest.mark.parametrize("content", [b"mine\n", "café\n".encode("latin-1")])
+def test_other_content_is_replaced_only_by_force(tmp_path: Path, content: bytes):
     write(tmp_path, robot=ROBOT)
-    (tmp_path / "robot.robot.yaml").write_text("mine\n")
-    assert linkforge("migrate", "robot.xacro", cwd=tmp_path).returncode == 2
-    assert (tmp_path / "robot.robot.yaml").read_text() == "mine\n"
+    (tmp_path / "robot.robot.yaml").write_bytes(content)
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    assert ran.returncode == 2
+    assert "robot.robot.yaml has other content; use --force to replace it" in ran.stderr
+    assert (tmp_path / "robot.robot.yaml").read_bytes() == content
     assert linkforge("migrate", "robot.xacro", "--force", cwd=tmp_path).returncode == 0
 
 

@@ -128,7 +128,8 @@ def _write(proved: Proved, folder: Path, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import write_changed
 
     contents = {folder / name: text for name, text in proved.files.items()}
-    others = [str(path) for path, text in contents.items() if path.is_file() and path.read_text("utf-8") != text]
+    there = {path: path.read_text("utf-8", "replace") for path in contents if path.is_file()}
+    others = [str(path) for path, text in there.items() if text != contents[path]]
     if others and not arguments.force:
         have = "has other content" if len(others) == 1 else "have other content"
         raise UsageError(f"nothing is written: {', '.join(others)} {have}; use --force to replace it")
