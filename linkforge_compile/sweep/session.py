@@ -138,13 +138,16 @@ class Judge:
         self._true: set[tuple[str, str]] = set()
 
     def grow(self, made: list[Made], bundle: Bundle) -> Bundle:
-        """Return the bundle with the files that a point reads here, the same one if it has them all."""
+        """Return the bundle with the files that points read here, the same one if it has them all.
+
+        Of points that lack the same, one is compiled.
+        """
+        files, explained = Files(bundle, self._blobs), set[tuple[str, str]]()
         for one in made:
-            if not self._is_true(one):
-                more = with_files_of(self._plan.request, one.point, Files(bundle, self._blobs)).bundle
-                if more is not bundle:
-                    return more  # may be what all others of the chunk lack
-        return bundle
+            if not (self._is_true(one) or explained.issuperset(lacking := _about_files(one))):
+                explained.update(lacking)
+                files = with_files_of(self._plan.request, one.point, files)
+        return files.bundle
 
     def final(self, one: Made) -> Made:
         """Return what was made of a point, here if it may lack a file where it was made."""

@@ -20,7 +20,7 @@ from linkforge_compile.sweep.connection import cluster, require_same_versions
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Choice, Plan, plan_of
 from linkforge_compile.sweep.points import Point
-from linkforge_compile.sweep.session import collect_files, results_of, with_files_of
+from linkforge_compile.sweep.session import Judge, collect_files, results_of, with_files_of
 from linkforge_compile.sweep.store import Chunk, chunks_of
 from linkforge_compile.sweep.work import Made, Request, make, make_all
 from tests.conftest import ROOT
@@ -115,6 +115,30 @@ def test_a_tree_lies_elsewhere_and_nothing_else_is_read(tmp_path: Path, monkeypa
     assert [(one.row, one.files) for one in there] == [(one.row, one.files) for one in here]
     assert Path.cwd() == tmp_path
     assert not spec.exists()
+
+
+def test_all_files_that_a_chunk_lacks_are_sent_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Of two points that lack the same mesh, one is compiled here."""
+    for size in range(1, 5):
+        block(0.1 * size, 0.1, 0.1).export(tmp_path / f"{size}.stl")
+    (tmp_path / "arm.robot.yaml").write_text(
+        "linkforge: 1\nname: arm\nparameters: {size: 1}\nlinks:\n"
+        "  base: {visual: {mesh: $(size).stl}, inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}}\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    plan = plan_of(Request("arm.robot.yaml", "arm"), Choice(("size=1,2,2,3,4",)))
+    points, files, compiled = plan.points_of(Chunk(0, 5)), collect_files(plan), []
+
+    def counted(request: Request, point: Point, some: Files) -> Files:
+        compiled.append(point.index)
+        return with_files_of(request, point, some)
+
+    monkeypatch.setattr("linkforge_compile.sweep.session.with_files_of", counted)
+    made = make_all(plan.request, points, Tree(tmp_path / "tree", files.bundle, files.blobs))
+    grown = Judge(plan, files.blobs).grow(made, files.bundle)
+    assert compiled == [1, 3, 4]
+    there = make_all(plan.request, points, Tree(tmp_path / "grown", grown, files.blobs))
+    assert [one.row for one in there] == [one.row for one in make_all(plan.request, points)]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
