@@ -109,6 +109,15 @@ def test_a_file_that_is_none_is_wrong_usage(tmp_path: Path):
     assert "'nothing.xacro' is not a file" in ran.stderr
 
 
+@pytest.mark.parametrize("seconds", ["0", "-1", "nan"])
+def test_a_time_limit_is_above_zero(tmp_path: Path, seconds: str):
+    (tmp_path / "r.xacro").write_text('<robot name="r"><link name="a"/></robot>', "utf-8")
+    ran = linkforge("migrate", "r.xacro", "-o", "out", "--seconds", seconds, cwd=tmp_path)
+    assert ran.returncode == 2
+    assert f"--seconds takes a number above 0, found {seconds}" in ran.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_the_example_of_the_docs_is_what_the_command_writes(tmp_path: Path):
     page = (ROOT / "docs/from-xacro.md").read_text("utf-8")
     (tmp_path / "cart.urdf.xacro").write_text(re.findall(r"```xml\n(.*?)```", page, re.DOTALL)[0], "utf-8")

@@ -73,6 +73,8 @@ def run(arguments: argparse.Namespace) -> int:
     xacro = Path(require_one_spec(files))
     if not xacro.is_file():
         raise UsageError(f"'{xacro}' is not a file")
+    if not arguments.seconds > 0:
+        raise UsageError(f"--seconds takes a number above 0, found {arguments.seconds:g}")
     from linkforge_compile.analysis import Settings
     from linkforge_compile.diagnostics import Diagnostics
     from linkforge_compile.migration.deadline import Deadline
