@@ -17,6 +17,9 @@ receive the function by cloudpickle; the script that calls `run` then needs `if 
 `scheduler`, the workers of another cluster do; `security` has its files of TLS by the names of Dask's `Security`:
 `tls_ca_file`, `tls_client_cert` and `tls_client_key`.
 
+`output` is the folder for the robots, the table and the manifest; without it, only the table is made. `pack` is
+`folders`, `tar`, `zip`, or `none` for the table alone. The other arguments are the options of `linkforge sweep`.
+
 The table has a row for each robot, in the order of the points. docs/sweep.md describes its columns.
 
 What flows: the options become a `Plan`, which is checked before anything is compiled: a `Request` (how to compile any
@@ -93,6 +96,8 @@ def run(
     options: Mapping[str, str] | None = None,
     output: str | Path | None = None,
     resume: bool = False,
+    pack: str = "folders",
+    chunk: int | None = None,
     jobs: int = 1,
     scheduler: str | None = None,
     security: Mapping[str, str | Path] | None = None,
@@ -101,22 +106,30 @@ def run(
 ) -> Any:
     """Compile a spec at every point of a grid, and return the `pyarrow.Table` of the robots.
 
-    The arguments are the options of `linkforge sweep`, or described at the top of this module. Without `output`, the
-    folder of robots, table and manifest, only the table is made.
-
-    Raises:
-        SweepError: for what is wrong with the sweep as a whole; faults of single robots are in the table.
-
+    SweepError for what is wrong with the sweep as a whole; faults of single robots are in the table.
     """
     from linkforge_compile.sweep.plan import Choice, plan_of
 
+    _check(pack, jobs=jobs, sample=sample, chunk=chunk, max_points=max_points)
     names, table = tuple(variants), None if values is None else Path(values)
     request = _request_of(spec, parameters or {}, names, packages or {}, options or {})
     request = request._replace(formats=tuple(formats), allow_outside=allow_outside, function=function)
-    sets = tuple(_set_text(name, value) for name, value in (grid or {}).items())
-    choice = Choice(sets, names, table, where, sample, seed, max_points, words=Wording(is_python=True))
+    sets = tuple(_set_text(name, value) for name, value in dict(grid or {}).items())
+    choice = Choice(sets, names, table, where, sample, seed, max_points, chunk, words=Wording(is_python=True))
     place = Place(jobs, scheduler, {name: str(path) for name, path in (security or {}).items()})
-    return _table_of(plan_of(request._replace(has_files=output is not None), choice), output, place, resume=resume)
+    packing = "none" if output is None else pack
+    plan = plan_of(request._replace(has_files=packing != "none"), choice)
+    return _table_of(plan, packing, output, place, resume=resume)
+
+
+def _check(pack: str, **numbers: object) -> None:
+    from linkforge_compile.sweep.store import PACKINGS
+
+    if pack not in PACKINGS:
+        raise SweepError(f"pack takes {', '.join(PACKINGS[:-1])} or {PACKINGS[-1]}, found {pack!r}")
+    for name, number in numbers.items():
+        if number is not None and not (isinstance(number, int) and number > 0):
+            raise SweepError(f"{name} takes a whole number from 1, found {number!r}")
 
 
 def _request_of(
@@ -134,13 +147,12 @@ def _request_of(
     return Request(str(spec), stem_of(spec), texts, variant, paths, {"gazebo": "gz", **options})
 
 
-def _table_of(plan: Plan, output: str | Path | None, place: Place, *, resume: bool) -> Any:
+def _table_of(plan: Plan, packing: str, output: str | Path | None, place: Place, *, resume: bool) -> Any:
     """Run a plan in a folder, for None a temporary one, and return its table."""
     from linkforge_compile.sweep.session import execute
     from linkforge_compile.sweep.store import Store
 
     with TemporaryDirectory(prefix="linkforge-sweep-") as temporary:
-        packing = "none" if output is None else "folders"
         store = Store(
             Path(temporary if output is None else output), packing, plan.request.columns, has_variants=plan.has_variants
         )

@@ -169,15 +169,16 @@ def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Dia
                 "select variants; leave one of them out"
             )
         axes, parameters = [*axes, axis], parameters | dict(columns)
+    _check_variants(choice.variants, declared)
     if len(choice.variants) > 1:
-        axes = [*axes, _variant_axis(choice.variants, declared)]
+        axes = [*axes, Axis((VARIANT,), [(name,) for name in choice.variants])]
     if both := fixed.intersection(parameters):
         name = min(both)
         raise SweepError(f"'{name}' is varied, and set for all robots with {words.fixed(name)}; leave one of them out")
     return Varied(tuple(axes), tuple(reader.intervals), parameters)
 
 
-def _variant_axis(variants: Sequence[str], declared: Declared) -> Axis:
+def _check_variants(variants: Sequence[str], declared: Declared) -> None:
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
     for name in (name for text in variants for name in ([text] if text in declared.variants else text.split("+"))):
@@ -186,7 +187,6 @@ def _variant_axis(variants: Sequence[str], declared: Declared) -> Axis:
                 f"; there are {', '.join(declared.variants)}" if declared.variants else "; the spec declares none"
             )
             raise SweepError(f"there is no variant '{name}'{hint}")
-    return Axis((VARIANT,), [(name,) for name in variants])
 
 
 def _fixed_names(request: Request) -> frozenset[str]:

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from linkforge_compile.atomic_file import write_atomically
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.sweep.arrow import arrow, parquet
+from linkforge_compile.sweep.cells import value_text
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.manifest import differences, with_files
 from linkforge_compile.sweep.rows import COUNTS, FIGURES, TEXTS, Cell, Row
@@ -149,11 +150,10 @@ class Store:
         pa = arrow()
         known = set(self._schema.names)
         names = dict.fromkeys(name for row in rows for name in row if name not in known)
-        schema = self._schema
+        table = pa.Table.from_pylist([{**row} for row in rows], schema=self._schema)
         for name in names:
-            values = [row.get(name) for row in rows]
-            schema = schema.append(pa.field(name, pa.array(_of_one_type(values)).type))
-        return pa.Table.from_pylist([{**row} for row in rows], schema=schema)
+            table = table.append_column(name, pa.array(_of_one_type([row.get(name) for row in rows])))
+        return table
 
     def finish(self) -> None:
         """Join the parts to the table, a few rows at a time, and remove them."""
@@ -162,7 +162,7 @@ class Store:
         parts = sorted((self.folder / PARTS).glob("*.parquet"))
         schema = self._schema
         for part in parts:  # one at a time: those of a thousand parts take megabytes
-            schema = pa.unify_schemas([schema, pq.read_schema(part)], promote_options="permissive")
+            schema = _united(schema, pq.read_schema(part))
         temporary = self.folder / f".{TABLE}.new"
         with pq.ParquetWriter(temporary, schema) as writer:
             waiting: list[Any] = []
@@ -216,13 +216,26 @@ def schema_of(columns: Mapping[str, Parameter], *, has_variants: bool) -> Any:
 
 
 def _of_one_type(values: Sequence[Cell]) -> Sequence[Cell]:
-    """Return values that a column can hold: text if they are of several kinds."""
+    """Return values that a column can hold: strings if they are of several kinds."""
     kinds = {float if isinstance(one, int | float) and not isinstance(one, bool) else type(one) for one in values}
     kinds.discard(type(None))
     if len(kinds) > 1:
-        raise SweepError("the function returns values of several kinds in one column; return one kind")
+        return [None if one is None else value_text(one) for one in values]
     is_mixed = kinds == {float} and any(isinstance(one, float) for one in values)
     return [None if one is None else float(str(one)) for one in values] if is_mixed else values
+
+
+def _united(schema: Any, other: Any) -> Any:
+    """Return a schema for the rows of both; a column of several kinds has strings."""
+    pa = arrow()
+    try:
+        return pa.unify_schemas([schema, other], promote_options="permissive")
+    except pa.ArrowTypeError:
+        if len(other) > 1:
+            for field in other:
+                schema = _united(schema, pa.schema([field]))
+            return schema
+        return schema.set(schema.get_field_index(other[0].name), other[0].with_type(pa.string()))
 
 
 def _as_schema(table: Any, schema: Any) -> Any:

@@ -164,6 +164,8 @@ def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
         cell = value.item() if hasattr(value, "item") else value  # of numpy's numbers and booleans
         if not (cell is None or isinstance(cell, bool | int | float | str)):
             raise TypeError(f"column {name!r} takes a number, a boolean or a string, found {type(value).__name__}")
+        if isinstance(cell, int) and not -(2**63) <= cell < 2**63:
+            raise OverflowError(f"column {name!r} takes integers of 64 bits, found {cell}")
         checked[name] = cell
     return checked
 

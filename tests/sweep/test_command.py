@@ -302,6 +302,33 @@ def test_an_error_of_a_function_stands_beside_the_warnings(folder: Path):
     assert error["message"] == "the function raised KeyError: 'no'"
 
 
+@pytest.mark.parametrize("chunk", [1, 4])
+def test_a_column_of_several_kinds_has_strings(folder: Path, chunk: int):
+    """Both where the kinds meet in one part of the table and where each part has one kind."""
+    kinds = {0.4: 1, 0.5: "far", 0.6: True, 0.7: None}
+    table = run(
+        folder / "arm.robot.yaml", {"reach": list(kinds)}, lambda _, values: kinds[values["reach"]], chunk=chunk
+    )
+    assert table["result"].to_pylist() == ["1", "far", "true", None]
+
+
+def test_an_integer_that_no_column_holds_is_an_error_of_its_robot(folder: Path):
+    table = run(folder / "arm.robot.yaml", {"reach": [0.5, 1]}, lambda _, values: 2 ** int(70 * values["reach"]))
+    assert table["result"].to_pylist() == [2**35, None]
+    assert "column 'result' takes integers of 64 bits, found 1180591620717411303424" in table["diagnostics"][1].as_py()
+
+
+def test_python_packs_and_takes_pairs_as_a_grid(folder: Path):
+    run(folder / "arm.robot.yaml", [("reach", [0.5, 1])], output=folder / "out", pack="tar", chunk=2)
+    assert [one.name for one in (folder / "out/robots").iterdir()] == ["000000-000001.tar"]
+
+
+def test_one_misspelt_variant_is_refused_before_anything_is_compiled(folder: Path):
+    code, told = sweep(folder, "--set", "reach=0.4m:1m:2", "--variant", "simm")
+    assert (code, told) == (2, "linkforge sweep: there is no variant 'simm'; did you mean 'sim'?\n")
+    assert not (folder / "out").exists()
+
+
 @pytest.mark.parametrize(
     ("words", "difference"),
     [

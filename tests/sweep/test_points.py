@@ -137,6 +137,11 @@ def test_a_parameter_is_not_varied_twice_or_fixed_as_well(tmp_path: Path):
         ({"grid": {"reach": [1]}, "where": "$(raech > 1)"}, "<where>:1:3: error: no parameter"),
         ({"grid": {"reach": [1]}, "parameters": {"raech": 1}}, "<parameters>:1:1: error: no parameter named 'raech'"),
         ({"values": "none.csv"}, "values none.csv: No such file or directory"),
+        ({"grid": {"reach": [1]}, "jobs": 0}, "jobs takes a whole number from 1, found 0"),
+        ({"sample": 0}, "sample takes a whole number from 1, found 0"),
+        ({"grid": {"reach": [1]}, "chunk": 1.5}, "chunk takes a whole number from 1, found 1.5"),
+        ({"grid": {"reach": [1]}, "pack": "rar"}, "pack takes folders, tar, zip or none, found 'rar'"),
+        ({"grid": {"reach": [1]}, "variants": ["simm"]}, "there is no variant 'simm'"),
     ],
 )
 def test_in_python_messages_name_the_arguments(tmp_path: Path, arguments: dict[str, object], message: str):
