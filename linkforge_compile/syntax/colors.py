@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-_HEX = re.compile(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})")
+_HEX = re.compile(r"(?:#|0x)((?:[0-9a-fA-F]{2}){3,4})|#([0-9a-fA-F]{3,4})")
 
 _NAMES = {
     "black": "[0, 0, 0]",
@@ -20,11 +20,12 @@ _NAMES = {
 
 
 def color_as_list(text: str) -> str | None:
-    """Return a color's name, `#ff8000` or `0xff8000` as a list: "[1, 0.502, 0]"; None for any other text."""
+    """Return a color's name, `#ff8000`, `0xff8000` or `#f80` as a list: "[1, 0.502, 0]"; None for other text."""
     digits = _HEX.fullmatch(text)
     if digits is None:
         return _NAMES.get(text.lower())
-    return f"[{', '.join(map(byte_as_component, bytes.fromhex(digits[1])))}]"
+    pairs = digits[1] or "".join(digit * 2 for digit in digits[2])
+    return f"[{', '.join(map(byte_as_component, bytes.fromhex(pairs)))}]"
 
 
 def byte_as_component(byte: int) -> str:

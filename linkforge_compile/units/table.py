@@ -135,19 +135,31 @@ _SPELLINGS = {
 _WORDS = {
     "deg": ("degree", "degrees", "degs", "\u00ba", "\u02da"),  # an ordinal indicator and a ring, which look like °
     "rad": ("radian", "radians"),
+    "mrad": ("milliradian", "milliradians"),
     "rev": ("turn", "turns", "revolution", "revolutions"),
     "m": ("meter", "meters", "metre", "metres"),
     "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
     "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "um": ("micrometer", "micrometers", "micrometre", "micrometres", "micron", "microns"),
+    "km": ("kilometer", "kilometers", "kilometre", "kilometres"),
     "in": ("inch", "inches"),
-    "kg": ("kilogram", "kilograms", "kgs", "Kg", "KG"),
-    "g": ("gram", "grams", "gr"),
+    "ft": ("foot", "feet"),
+    "kg": ("kilogram", "kilograms", "kilogramme", "kilogrammes", "kilo", "kilos", "kgs", "Kg", "KG"),
+    "g": ("gram", "grams", "gramme", "grammes", "gr"),
+    "mg": ("milligram", "milligrams"),
+    "t": ("tonne", "tonnes"),
     "lb": ("lbs", "pound", "pounds"),
     "s": ("sec", "secs", "second", "seconds"),
     "ms": ("msec", "millisecond", "milliseconds"),
+    "us": ("usec", "microsecond", "microseconds"),
+    "min": ("minute", "minutes"),
     "Hz": ("hz", "hertz", "Hertz", "HZ", "fps", "FPS"),
+    "kHz": ("kilohertz",),
+    "MHz": ("megahertz",),
     "N": ("newton", "newtons", "Newton", "Newtons"),
-    "N*m": ("nm", "NM", "N-m", "Newton-meter", "newton-meter"),
+    "mN": ("millinewton", "millinewtons"),
+    "kN": ("kilonewton", "kilonewtons"),
+    "N*m": ("nm", "NM", "N-m", "Newton-meter", "newton-meter", "newton-metre"),
     "kgf*cm": ("kg*cm", "kg-cm", "kgcm"),
     "m/s": ("mps", "m/sec"),
     "rad/s": ("rad/sec", "radians/s", "radians/sec", "rads"),
@@ -158,6 +170,13 @@ _WORDS = {
 }
 _UNITS_BY_WORD = {word: UNITS[name] for name, words in _WORDS.items() for word in words}
 """Words that are not accepted for a unit, but for which messages suggest it."""
+
+_SHORTEST_MISSPELT = 5
+_LONGEST_MISSPELT = 20
+_LEAST_LIKENESS = 0.82
+"""By difflib's ratio: `radain` is `radian`, but `grads` are not `grams`."""
+_MOST_APART = 1.1
+"""Letters of a word that differ: `degress` is `degrees`, but `milliampere` is not `millimeter`."""
 
 # The number of digits is bounded: the integer 1e999999999 would fill the memory.
 _QUANTITY = re.compile(
@@ -183,8 +202,20 @@ def parse_quantity(text: str) -> Quantity | None:
 
 
 def suggested_unit(word: str) -> Unit | None:
-    """Return the unit to suggest for a word that is not one: `deg` for `degrees`; None for any other word."""
-    return _UNITS_BY_WORD.get(word.translate(_PLAIN).replace("**", "^"))
+    """Return the unit to suggest for a word that is not one: `deg` for `degrees` and `degress`; None for other words.
+
+    A misspelt word keeps its first letter: `decimeter` is not `centimeter`.
+    """
+    name = word.translate(_PLAIN).replace("**", "^")
+    if name in _UNITS_BY_WORD or name in UNITS or not _SHORTEST_MISSPELT <= len(name) <= _LONGEST_MISSPELT:
+        return _UNITS_BY_WORD.get(name)
+    # difflib costs 3 ms to import and most runs never need it.
+    from difflib import get_close_matches
+
+    lower = name.lower()
+    like = [each for each in _UNITS_BY_WORD if each[0] == lower[0] and each.isalpha()]
+    nearest = get_close_matches(lower, like, n=1, cutoff=max(_LEAST_LIKENESS, 1 - _MOST_APART / len(lower)))
+    return _UNITS_BY_WORD[nearest[0]] if nearest else None
 
 
 def spellings_of(unit: str) -> tuple[str, ...]:

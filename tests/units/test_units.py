@@ -148,6 +148,34 @@ def test_a_word_for_a_unit_is_known_and_not_taken(word: str, unit: str):
     assert parse_quantity(f"1 {word}") is None
 
 
+@pytest.mark.parametrize(
+    ("word", "unit"),
+    [
+        ("milimeter", "mm"),
+        ("milimeters", "mm"),
+        ("Centimters", "cm"),
+        ("meteres", "m"),
+        ("inchs", "in"),
+        ("degress", "deg"),
+        ("radain", "rad"),
+        ("secound", "s"),
+        ("killogram", "kg"),
+        ("micometer", "um"),
+    ],
+)
+def test_a_misspelt_word_for_a_unit_is_known(word: str, unit: str):
+    meant = suggested_unit(word)
+    assert meant is not None
+    assert meant.name == unit
+
+
+@pytest.mark.parametrize(
+    "word", ["decimeter", "nanometer", "picometer", "furlong", "grads", "miles", "hours", "milliampere", "micrograms"]
+)
+def test_a_word_for_a_unit_that_is_not_there_suggests_none(word: str):
+    assert suggested_unit(word) is None
+
+
 def test_no_unit_is_a_word_for_another():
     assert [unit for unit in UNITS if suggested_unit(unit)] == []
 
