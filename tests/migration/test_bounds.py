@@ -131,10 +131,10 @@ def test_another_attempt_starts_with_what_the_one_before_found(tmp_path: Path, m
 def test_what_takes_too_long_is_not_written(links: int, late: str, tmp_path: Path):
     joint = '<link name="l{0}"/><joint name="j{0}" type="fixed"><parent link="base"/><child link="l{0}"/></joint>'
     write(tmp_path, robot=f'<link name="base"/>{"".join(joint.format(one) for one in range(links))}')
-    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--seconds", "0", cwd=tmp_path)
+    ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--seconds", "1e-9", cwd=tmp_path)
     assert ran.returncode == 1
     assert f"error: {late}" in ran.stderr
-    assert "was not finished in 0 s; --seconds gives it more time [LF8051]" in ran.stderr
+    assert "was not finished in 1e-09 s; --seconds gives it more time [LF8051]" in ran.stderr
     assert "nothing is written" in ran.stderr
     assert not (tmp_path / "specs").exists()
 
