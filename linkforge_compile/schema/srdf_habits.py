@@ -49,26 +49,29 @@ def srdf_entry(section: str | int, value: YamlNode) -> str:
 
     "" for any other value, and for sections whose entries are under the names of elements.
     """
-    form, element = _ENTRIES.get(str(section)), _element(value)
-    return form.format_map(_attributes(element)) if form and element else ""
+    form, elements = _ENTRIES.get(str(section)), _elements(value)
+    return form.format_map(_attributes(elements[0])) if form and elements else ""
 
 
 def srdf_hint(owner: str, entry: YamlEntry) -> str:
     """Return what to write for a tag of SRDF and its element or elements, "" for other owners, keys and values."""
-    section, element = _SECTIONS.get(entry.name), _element(entry.value)
-    if owner != "a semantic part" or section is None or element is None:
+    section = _SECTIONS.get(entry.name)
+    elements = _elements(entry.value) if owner == "a semantic part" and section else ()
+    if section is None or not elements:
         return ""
-    attributes = _attributes(element)
+    attributes, more = _attributes(elements[0]), ", …" if len(elements) > 1 else ""
     if attribute := LIST_SECTIONS.get(section):
-        return f"write '{section}: [{attributes[attribute]}]'"
-    return f"write '{section}: {{{srdf_entry(section, element) or '{name}: …'.format_map(attributes)}}}'"
+        return f"write '{section}: [{attributes[attribute]}{more}]'"
+    first = srdf_entry(section, entry.value) or "{name}: …".format_map(attributes)
+    return f"write '{section}: {{{first}{more}}}'"
 
 
-def _element(value: YamlNode) -> YamlMap | None:
-    """Return a map with an attribute that identifies an element, or the first one of a list."""
-    first = next(iter(value), None) if isinstance(value, YamlList) else value
-    is_element = isinstance(first, YamlMap) and not first.entries.keys().isdisjoint(_IDENTIFIERS)
-    return first if is_element and isinstance(first, YamlMap) else None
+def _elements(value: YamlNode) -> Sequence[YamlMap]:
+    """Return the maps with an attribute that identifies an element, of a list or one alone; () for other values."""
+    elements = [*value] if isinstance(value, YamlList) else [value]
+    maps = [each for each in elements if isinstance(each, YamlMap)]
+    is_element = maps and maps[0] is elements[0] and not maps[0].entries.keys().isdisjoint(_IDENTIFIERS)
+    return maps if is_element else ()
 
 
 def _attributes(element: YamlMap) -> _Attributes:
@@ -100,10 +103,10 @@ def srdf_entries(section: str, value: YamlNode) -> Sequence[str]:
 
     () for elements that lack an attribute or have it twice, and for what is not written on one line.
     """
-    elements = [*value] if isinstance(value, YamlList) else [value]
-    if not elements or not all(isinstance(each, YamlMap) and _has_plain_values(each) for each in elements):
+    maps = _elements(value)
+    is_whole = not isinstance(value, YamlList) or len(maps) == len(value)
+    if not is_whole or not all(_has_plain_values(each) for each in maps):
         return ()
-    maps = [each for each in elements if isinstance(each, YamlMap)]
     try:
         if attribute := LIST_SECTIONS.get(section):
             return [_written(each, attribute) for each in maps]
