@@ -1,6 +1,5 @@
 """libsdformat finds in our SDF what it finds in our URDF, and complains about nothing."""
 
-import os
 import re
 from collections import Counter
 from collections.abc import Iterable
@@ -17,12 +16,11 @@ from linkforge_compile.formats import SDF, Rendering
 from linkforge_compile.formats.render import render_urdf
 from tests.conftest import ROOT
 from tests.consumers import pinocchio_model
-from tests.importers.robots import OF_CORPUS, OF_EXAMPLES
+from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, STEP
 from tests.libsdformat import Part, Read, read_with_libsdformat
 
 EXAMPLES = sorted((ROOT / "examples").rglob("*.robot.yaml"))
-REAL = [*OF_EXAMPLES, *OF_CORPUS][:: 1 if os.environ.get("LINKFORGE_ALL_ROBOTS") else 2]
-"""Every second one, to save time in CI."""
+REAL = [*OF_EXAMPLES, *OF_CORPUS][::STEP]
 
 RAW = [
     rf"XML Element\[{tag}\], child of element\[{parent}\]"

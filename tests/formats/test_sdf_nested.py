@@ -10,13 +10,13 @@ from linkforge_compile.cli.main import main
 from linkforge_compile.core import Robot
 from linkforge_compile.formats import SDF, Rendering
 from tests.conftest import ROOT
-from tests.importers.robots import OF_CORPUS, OF_EXAMPLES
+from tests.importers.robots import OF_CORPUS, OF_EXAMPLES, STEP
 from tests.libsdformat import Part, Read, read_with_libsdformat
 
 WITH_MODULES = [
     path for path in sorted((ROOT / "examples").rglob("*.robot.yaml")) if "\nmodules:" in path.read_text("utf-8")
 ]
-REAL = [*OF_EXAMPLES, *OF_CORPUS][::4]
+REAL = [*OF_EXAMPLES, *OF_CORPUS][:: 4 * STEP]
 """Each takes more than a second."""
 
 UNIT = "inertial: {mass: 1, inertia: {ixx: 1, iyy: 1, izz: 1}}"
