@@ -12,7 +12,7 @@ from typing import NamedTuple
 from linkforge_compile._version import __version__
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PARAMETER
-from linkforge_compile.expand.arguments import arguments_from_text
+from linkforge_compile.expand.arguments import arguments_from_text, names_in_variant
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.load import is_xacro
 from linkforge_compile.source import SourceFile, Span
@@ -181,7 +181,7 @@ def _varied(declared: Declared, choice: Choice, fixed: frozenset[str], sink: Dia
 def _check_variants(variants: Sequence[str], declared: Declared) -> None:
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
-    for name in (name for text in variants for name in ([text] if text in declared.variants else text.split("+"))):
+    for name in (name for text in variants for name in names_in_variant(text, declared.variants)):
         if name not in declared.variants:
             hint = did_you_mean(name, declared.variants) or (
                 f"; there are {', '.join(declared.variants)}" if declared.variants else "; the spec declares none"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.diagnostics.codes.modules import SET_TWICE, UNKNOWN_PARAMETER
+from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.characters import UnreadableError, text_of
@@ -82,8 +83,9 @@ def _check(column: list[Cell], parameter: Parameter, sink: Diagnostics) -> None:
 
 def _check_variants(column: list[Cell], declared: Declared) -> None:
     for cell in column:
-        if unknown := [one for one in cell.text.split("+") if one not in declared.variants]:
-            raise SweepError(f"{cell.span}: there is no variant '{unknown[0]}'")
+        for name in names_in_variant(cell.text, declared.variants):
+            if name not in declared.variants:
+                raise SweepError(f"{cell.span}: there is no variant '{name}'")
 
 
 def _name_of(cell: Cell, declared: Declared, sink: Diagnostics) -> str:
