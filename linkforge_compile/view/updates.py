@@ -12,6 +12,7 @@ from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.diagnostics.render_text import MOST_SHOWN, snippet
 from linkforge_compile.diagnostics.reports import count_losses
 from linkforge_compile.expand import CliArgument, arguments_from_text
+from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
 from linkforge_compile.units import number_text, parse_quantity
 from linkforge_compile.view.files import MissingFile
@@ -85,7 +86,7 @@ def shown_settings(settings: Settings, listing: Listing | None) -> ShownSettings
     if listing is None:
         return {"parameters": [], "variants": [], "variant": settings.variant}
     values, by_variant = values_of(settings.parameters), dict[str, str]()
-    for name in (settings.variant or "").split("+"):
+    for name in names_in_variant(settings.variant, listing.variants):
         by_variant |= listing.variants.get(name, {})
     return {
         "parameters": [_shown(one, values.get(one.name), by_variant.get(one.name)) for one in listing.parameters],
