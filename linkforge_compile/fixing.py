@@ -113,7 +113,7 @@ def _safe(report: Report) -> list[_Candidate]:
     by_edits: dict[tuple[object, ...], _Candidate] = {}
     for one in ungrouped(report.diagnostics):
         if fix := next((fix for fix in one.fixes if fix.is_safe), None):
-            places = tuple((edit.span.file.name, *edit.range, edit.text) for edit in fix.edits)
+            places = tuple((edit.span.file.name, *edit.span.range, edit.text) for edit in fix.edits)
             by_edits.setdefault(places, _Candidate(one, fix))
     return list(by_edits.values())
 
@@ -148,7 +148,7 @@ def _new_fault(chosen: Collection[_Candidate], before: Report, after: Report) ->
     for error in ungrouped(after.diagnostics):
         if error.span is None:
             continue
-        at = error.span.file.index_of(*error.span.start)
+        at, _ = error.span.range
         is_in_edit = any(begin <= at <= end for begin, end in written.get(error.span.file.name, ()))
         if is_in_edit and _key(error) in corrected:
             return "it is reported again"
@@ -164,7 +164,7 @@ def _places_written(chosen: Iterable[_Candidate]) -> dict[str, list[tuple[int, i
     """Return the indexes between which the edited texts have what fixes write, by the name of the file."""
     ranges: dict[str, list[tuple[int, int, int]]] = {}
     for edit in (edit for one in chosen for edit in one.fix.edits):
-        ranges.setdefault(edit.span.file.name, []).append((*edit.range, len(edit.text)))
+        ranges.setdefault(edit.span.file.name, []).append((*edit.span.range, len(edit.text)))
     written: dict[str, list[tuple[int, int]]] = {}
     for name, edits in ranges.items():
         moved = 0

@@ -14,8 +14,7 @@ from typing import NamedTuple, TypeAlias
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import UNKNOWN_PACKAGE
 from linkforge_compile.roots import Roots, as_walked, is_file, is_folder, package_name, search_path
-from linkforge_compile.source import Span
-from linkforge_compile.source.span import Located
+from linkforge_compile.source import Located, Span
 from linkforge_compile.syntax import YamlScalar
 
 _MAX_NAMES = 10_000

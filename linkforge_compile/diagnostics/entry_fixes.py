@@ -59,7 +59,7 @@ def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:
         if file.counted[around - 1 : around] in ("-", ",", "["):
             return None
         whole = file.between(begin - 1, closing.end())
-        items = ", ".join(f"{{{file.counted[file.index_of(*one.start) : file.index_of(*one.end)]}}}" for one in written)
+        items = ", ".join(f"{{{one.full_text}}}" for one in written)
         return Fix(title, (Edit(whole, f"[{items}]"),))
     if any(file.line(place.line)[: place.column - 1].strip() for place in written):
         return None
@@ -86,12 +86,12 @@ def add_entry(ref: SourceRef | None, *path: str | int, entry: str, after: str = 
         end = end._replace(column=len(file.line(end.line)) + 1)
         new = f"{file.newline}{' ' * (before.column - 1)}{entry}"
         return Fix(title, (Edit(Span(file, *end, *end), new),)) if _begins_line(before) else None
-    text = file.counted[file.index_of(*place.start) : file.index_of(*place.end)]
-    if text.startswith("{"):
+    text = place.full_text
+    if place.is_flow:
         begin, new = place.start._replace(column=place.column + 1), f"{entry}{', ' if text[1:-1].strip() else ''}"
     else:
         begin, new = place.start, f"{entry}{file.newline}{' ' * (place.column - 1)}"
-    is_map = text.startswith("{") or (text and _begins_line(place))
+    is_map = place.is_flow or (text and _begins_line(place))
     return Fix(title, (Edit(Span(file, *begin, *begin), new),)) if is_map else None
 
 
@@ -198,7 +198,7 @@ def _joined(places: Iterable[Span]) -> list[Span]:
 def _edit(place: Span, *, is_item: bool) -> Edit | None:
     """Return the edit that removes neighbours of a list or map; None if their lines have something else."""
     file = place.file
-    text, begin, end = file.counted, file.index_of(*place.start), file.index_of(*place.end)
+    text, (begin, end) = file.counted, place.range
     if _is_in_flow(file, end):
         before = _before(file, begin)
         if separator := _SEPARATOR.match(text, end):

@@ -29,11 +29,6 @@ class Edit(NamedTuple):
     span: Span
     text: str
 
-    @property
-    def range(self) -> tuple[int, int]:
-        """The indexes of its begin and end in the text of the file, without byte order mark."""
-        return self.span.file.index_of(*self.span.start), self.span.file.index_of(*self.span.end)
-
 
 @dataclass(frozen=True)
 class Fix:
@@ -73,10 +68,10 @@ class Replacement(NamedTuple):
         """
         if span is None or span.file.is_xml:
             return None
-        begin, end = span.file.index_of(*span.start), span.file.index_of(*span.end)
+        begin, end = span.range
         if end - begin > _LONGEST or len(self.new) > _LONGEST:
             return None
-        text = span.file.counted[begin:end]
+        text = span.full_text
         if after_prefix := self._after_prefix(text):
             return after_prefix.within(span.file.between(begin + text.index(_PREFIX) + len(_PREFIX), end))
         if (self.old and text.count(self.old) != 1) or ("$(" in text and "$" not in self.old):
@@ -101,7 +96,7 @@ class Replacement(NamedTuple):
 
     def is_word_for(self, span: Span | None) -> bool:
         """Whether `new` keeps its meaning in place of a name, in the quotes that the span has or without any."""
-        quote = span.file.counted[span.file.index_of(*span.start)] if span and span.start != span.end else ""
+        quote = span.full_text[:1] if span else ""
         return not {*"'\"\\\n"} & {*self.new} if quote in _QUOTES else _PLAIN.fullmatch(self.new) is not None
 
 
@@ -118,7 +113,7 @@ def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:
     taken: dict[str, list[tuple[int, int]]] = {}
     kept = []
     for fix in fixes:
-        places = [(taken.setdefault(edit.span.file.name, []), *edit.range) for edit in fix.edits]
+        places = [(taken.setdefault(edit.span.file.name, []), *edit.span.range) for edit in fix.edits]
         if not any(
             begin <= end_of_other and begin_of_other <= end
             for others, begin, end in places
@@ -134,7 +129,7 @@ def apply_edits(file: SourceFile, edits: Iterable[Edit]) -> str:
     """Return the text of a file with its byte order mark after edits, none of which overlap."""
     text, mark = file.counted, file.text[: len(file.text) - len(file.counted)]
     parts, at = [mark], 0
-    for begin, end, new in sorted((*edit.range, edit.text) for edit in edits):
+    for begin, end, new in sorted((*edit.span.range, edit.text) for edit in edits):
         assert begin >= at, "edits do not overlap"
         parts += (text[at:begin], new)
         at = end

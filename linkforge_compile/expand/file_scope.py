@@ -44,9 +44,8 @@ from linkforge_compile.load.loader import Loader, SpecFile
 from linkforge_compile.load.locations import PathSite, Writers, from_base, locate, mesh_base, rebased
 from linkforge_compile.paths import follow
 from linkforge_compile.schema.shapes import shapes
-from linkforge_compile.source import SourceFile, SourceRef, Span
+from linkforge_compile.source import ModuleUse, SourceFile, SourceRef, Span
 from linkforge_compile.source.provenance import Kind
-from linkforge_compile.source.span import ModuleUse
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlMap, YamlScalar
 from linkforge_compile.syntax.nodes import names_at_fault
 

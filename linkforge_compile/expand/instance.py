@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkforge_compile.diagnostics import DeletedNames
 from linkforge_compile.limits import Budget, Limit
 from linkforge_compile.load.locations import FindMesh, no_mesh
-from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.span import Located, ModuleUse
+from linkforge_compile.source import Located, ModuleUse, SourceFile, SourceRef, Span
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlScalar
 
 if TYPE_CHECKING:

@@ -24,8 +24,7 @@ from linkforge_compile.expand.override import Override, apply_patch, report_empt
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.load.loader import SpecFile
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.source import SourceRef
-from linkforge_compile.source.span import ModuleUse
+from linkforge_compile.source import ModuleUse, SourceRef
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 

@@ -12,9 +12,8 @@ from linkforge_compile.expand.values import NameOrigin, find_name_origins
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.provenance import is_default, written_at
 from linkforge_compile.export_spec.robot import spec_of
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import Located, SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Provenance, join_links, outward, uses_of
-from linkforge_compile.source.span import Located
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.syntax.writer import write
 

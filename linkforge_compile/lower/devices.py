@@ -33,8 +33,7 @@ from linkforge_compile.lower.free_parts import free_elements, is_absent, texts_i
 from linkforge_compile.lower.joint import joints_of, position_type_of_node
 from linkforge_compile.lower.nested_keys import with_nested_keys
 from linkforge_compile.lower.numbers import ANGLE_OR_LENGTH, BARE, LENGTH, NumberType
-from linkforge_compile.source import Key, SourceRef
-from linkforge_compile.source.span import Located, ModuleUse
+from linkforge_compile.source import Key, Located, ModuleUse, SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar
 from linkforge_compile.units import Dimension, is_in_full, number_text
 

@@ -22,8 +22,7 @@ from linkforge_compile.lower.mesh_solids import MeshReader
 from linkforge_compile.lower.mount import ModuleJoint, lower_mounts
 from linkforge_compile.lower.object_context import has_fault, report_duplicate
 from linkforge_compile.lower.shapes import FileScope, lower_materials
-from linkforge_compile.source import SourceFile, SourceRef
-from linkforge_compile.source.span import ModuleUse
+from linkforge_compile.source import ModuleUse, SourceFile, SourceRef
 from linkforge_compile.syntax.nodes import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar, names_at_fault
 from linkforge_compile.units import Quantity, number_text
 

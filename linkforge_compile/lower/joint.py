@@ -27,7 +27,7 @@ from linkforge_compile.lower.numbers import (
     number_type,
     si_number,
 )
-from linkforge_compile.source.span import Located
+from linkforge_compile.source import Located
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlScalar
 from linkforge_compile.units import POSITION, Motion
 

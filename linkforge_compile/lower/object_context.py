@@ -11,9 +11,8 @@ from linkforge_compile.diagnostics.codes.model import MISSING_FIELD, REFUSED, WR
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME
 from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.lower.numbers import describe_node
-from linkforge_compile.source import SourceRef, Span
+from linkforge_compile.source import Located, ModuleUse, SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Link, Step, aliases_on, join_links, overrides_of, uses_in
-from linkforge_compile.source.span import Located, ModuleUse
 from linkforge_compile.syntax import leaves_in
 from linkforge_compile.syntax.nodes import YamlFault, YamlList, YamlMap, YamlNode
 

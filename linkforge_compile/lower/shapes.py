@@ -36,8 +36,7 @@ from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.mesh_solids import MeshReader, MeshSolids
 from linkforge_compile.lower.numbers import EXTENT, FRACTION, NumberType
 from linkforge_compile.paths import path_base
-from linkforge_compile.source import SourceFile, SourceRef, Span
-from linkforge_compile.source.span import Located
+from linkforge_compile.source import Located, SourceFile, SourceRef, Span
 from linkforge_compile.syntax.colors import byte_as_component, color_as_list
 from linkforge_compile.syntax.nodes import YamlList, YamlMap, YamlNode, YamlScalar
 

@@ -27,11 +27,10 @@ def as_map(items: YamlList, key: Span | None, *, is_empty_allowed: bool) -> Fix 
     file = items.span.file
     if file.is_xml or items.span.origin or any(item.span.file is not file for item in items):
         return None
-    text = file.counted[file.index_of(*items.span.start) : file.index_of(*items.span.end)]
-    if text.startswith("["):
+    if items.span.is_flow:
         entries = [_in_flow(item, name) for item, name in zip(items, names, strict=True) if name]
         new = f"{{{', '.join(entries)}}}"
-        return Fix("write a map", (Edit(items.span, new),)) if all(entries) and "\n" not in text else None
+        return Fix("write a map", (Edit(items.span, new),)) if all(entries) and items.span.text else None
     edits = [edit for item, name in zip(items, names, strict=True) if name for edit in _in_block(item, name, key)]
     return Fix("write a map", tuple(edits)) if edits and len({edit.span for edit in edits}) == len(edits) else None
 
@@ -41,7 +40,7 @@ def as_entries(items: YamlList, entries: Sequence[str], key: Span | None) -> Fix
     place, file = items.span, items.span.file
     if not entries or key is None or file.is_xml or place.origin:
         return None
-    if file.counted[file.index_of(*place.start)] == "[":
+    if place.is_flow:
         return Fix("write a map", (Edit(place, f"{{{', '.join(entries)}}}"),))
     shift = 0 if place.column > key.column else _STEP
     separator = f"{file.newline}{' ' * (place.column - 1 + shift)}"
@@ -54,7 +53,7 @@ def under_name(node: YamlMap) -> Fix | None:
     file, title = node.span.file, f"write '{name.name}: {{{entries[0].name}: …}}'" if entries else ""
     if not entries or not is_null(name.value) or file.is_xml:
         return None
-    if file.counted[file.index_of(*node.span.start)] == "{":
+    if node.span.is_flow:
         between = Span(file, *name.key.span.end, *entries[0].key.span.start)
         end = Span(file, *entries[-1].value.span.end, *entries[-1].value.span.end)
         return Fix(title, (Edit(between, ": {"), Edit(end, "}")))
@@ -104,10 +103,10 @@ def _in_block(item: YamlNode, name: YamlScalar, key: Span | None) -> list[Edit]:
     column = place.column - len(dash[0].lstrip())  # of the dash
     shift = 0 if key is None or column > key.column else _STEP
     begin, blank = Span(file, place.line, 1, *place.start), " " * (column - 1 + shift)
-    whole, first = Span(file, *place.start, *place.end), file.counted[file.index_of(*place.start)]
+    whole = Span(file, *place.start, *place.end)
     if isinstance(item, YamlScalar):
         return [Edit(begin, blank), Edit(Span(file, *place.end, *place.end), ":")]
-    if first == "{":
+    if place.is_flow:
         text = _in_flow(item, name)
         return [Edit(begin, blank), Edit(whole, text)] if text else []
     own = next(iter(item)) if isinstance(item, YamlMap) else None

@@ -24,7 +24,7 @@ def under_key(key: str, entries: Sequence[YamlEntry], around: YamlMap) -> Fix | 
     if written[at : at + len(entries)] != [*entries] or place is None:
         return None
     section, title = around.get(key), f"write '{key}: {{{first.name}: …}}'"
-    if _is_flow(around):
+    if around.span.is_flow:
         if section is not None:
             return None
         begin, end = (Span(place.file, *at, *at) for at in (place.start, place.end))
@@ -33,7 +33,7 @@ def under_key(key: str, entries: Sequence[YamlEntry], around: YamlMap) -> Fix | 
         header = f"{' ' * (place.column - 1)}{key}:{place.file.newline}"
         return _indented(title, place, header, len(_STEP))
     before = written[at - 1] if at else None
-    inner = next(iter(section), None) if isinstance(section, YamlMap) and not _is_flow(section) else None
+    inner = next(iter(section), None) if isinstance(section, YamlMap) and not section.span.is_flow else None
     if before is None or before.value is not section or inner is None:
         return None
     return _indented(title, place, "", inner.key.span.column - place.column)
@@ -56,7 +56,7 @@ def in_place(new: Sequence[str], entries: Sequence[YamlEntry], around: YamlMap) 
     at = next(index for index, entry in enumerate(written) if entry is entries[0])
     if place is None or written[at : at + len(entries)] != [*entries]:
         return None
-    separator = ", " if _is_flow(around) else f"{place.file.newline}{' ' * (place.column - 1)}"
+    separator = ", " if around.span.is_flow else f"{place.file.newline}{' ' * (place.column - 1)}"
     return Fix(f"write '{', '.join(new)}'", (Edit(place, separator.join(new)),))
 
 
@@ -67,7 +67,7 @@ def section_of(key: str, inner: Sequence[str], entry: YamlEntry, around: YamlMap
         return None
     indentation = f"{place.file.newline}{' ' * (place.column - 1 + len(_STEP))}"
     lines = "".join(f"{indentation}{one}" for one in inner)
-    text = f"{key}:{lines}" if len(inner) > 1 and not _is_flow(around) else f"{key}: {{{', '.join(inner)}}}"
+    text = f"{key}:{lines}" if len(inner) > 1 and not around.span.is_flow else f"{key}: {{{', '.join(inner)}}}"
     return Fix(f"write '{key}'", (Edit(place, text),))
 
 
@@ -77,10 +77,10 @@ def without_map(entry: YamlEntry, around: YamlMap) -> Fix | None:
     if place is None or not isinstance(inner, YamlMap) or not inner.entries:
         return None
     title, first = f"remove '{entry.name}'", next(iter(inner)).key.span
-    if _is_flow(inner):
-        text, end = inner.span.file.counted, inner.span.file.index_of(*inner.span.end)
-        if not _is_flow(around) or text[end - 1] != "}":
+    if inner.span.is_flow:
+        if not around.span.is_flow or not inner.span.full_text.endswith("}"):
             return None
+        _, end = inner.span.range
         begin = Span(place.file, *place.start, inner.span.line, inner.span.column + 1)
         return Fix(title, (Edit(begin, ""), Edit(place.file.between(end - 1, end), "")))
     if first.line != place.line + 1:
@@ -112,11 +112,6 @@ def _place(entries: Sequence[YamlEntry]) -> Span | None:
     if at.column == 1:
         at = at._replace(line=at.line - 1, column=len(file.line(at.line - 1)) + 1)
     return Span(file, *entries[0].key.span.start, *at)
-
-
-def _is_flow(node: YamlMap) -> bool:
-    text, at = node.span.file.counted, node.span.file.index_of(*node.span.start)
-    return text[at : at + 1] == "{"
 
 
 def _begins_line(place: Span) -> bool:

@@ -1,14 +1,12 @@
 """Files that were read, places in them, and references from later values back to these places."""
 
+from linkforge_compile.source.source_ref import Key, Located, Sourced, SourceRef
 from linkforge_compile.source.span import (
     Change,
-    Key,
-    Located,
+    ModuleUse,
     Origin,
     Position,
-    Sourced,
     SourceFile,
-    SourceRef,
     Span,
     Trace,
     TracedSpan,
@@ -20,6 +18,7 @@ __all__ = [
     "Change",
     "Key",
     "Located",
+    "ModuleUse",
     "Origin",
     "Position",
     "SourceFile",

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import NamedTuple, TypeAlias
 
-from linkforge_compile.source.span import Change, Key, Located, SourceRef, Span
+from linkforge_compile.source.source_ref import Key, Located, SourceRef
+from linkforge_compile.source.span import Change, Span
 
 
 class Kind(Enum):

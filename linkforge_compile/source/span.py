@@ -1,4 +1,4 @@
-"""Text that was read, stretches of it, and references from a robot's values to where they were written.
+"""Text that was read, and stretches of it.
 
 Lines and columns count from 1, columns in characters.
 """
@@ -6,12 +6,11 @@ Lines and columns count from 1, columns in characters.
 from __future__ import annotations
 
 from bisect import bisect_right
-from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
-from typing import NamedTuple, Protocol, Self
+from typing import NamedTuple, Protocol
 
 from linkforge_compile.source.characters import begins_xml, on_one_line
 
@@ -146,6 +145,22 @@ class Span(NamedTuple):
             return None
         return self.file.line(self.line)[self.column - 1 : self.end_column - 1]
 
+    @property
+    def range(self) -> tuple[int, int]:
+        """The indexes of its begin and end in `counted` of the file."""
+        return self.file.index_of(*self.start), self.file.index_of(*self.end)
+
+    @property
+    def full_text(self) -> str:
+        """The text of the span, also over several lines, whose ends are as in the file."""
+        begin, end = self.range
+        return self.file.counted[begin:end]
+
+    @property
+    def is_flow(self) -> bool:
+        """Whether it begins with a brace or bracket, as a map or list in flow style does."""
+        return self.file.line(self.line).startswith(("{", "["), self.column - 1)
+
     def lies_in(self, other: Span) -> bool:
         """Whether all of it is inside another span."""
         return self.file is other.file and other.start <= self.start and self.end <= other.end
@@ -272,79 +287,3 @@ class ModuleUse(Span):
 def span_of(place: Span | SourceFile, begin: int, end: int) -> Span:
     """Return the place itself if it is a span, else the span between two indexes of the file."""
     return place if isinstance(place, Span) else place.between(begin, end)
-
-
-class Key(str):
-    """The last step of a path that leads to a key itself, not to the value under it."""
-
-    __slots__ = ()
-
-
-class Located(Protocol):
-    """A node of a tree with places, of YAML or XML; all that a reference needs."""
-
-    @property
-    def span(self) -> Span: ...
-
-    def child(self, key: str | int) -> Located | None:
-        """Return the node under a key or position, None if there is none."""
-        ...
-
-    def key_span(self, key: str) -> Span | None:
-        """Return the place of a key, None if there is none."""
-        ...
-
-
-@dataclass(frozen=True, slots=True)
-class SourceRef:
-    """Where an object was written.
-
-    `node` is the object's own node, `key` the node of its name in a map of names. `trail` lists the `use` of its file,
-    then the use of the file that wrote that, and so on outwards.
-    """
-
-    node: Located
-    key: Located | None = None
-    trail: tuple[ModuleUse, ...] = ()
-
-    @property
-    def modules(self) -> tuple[str, ...]:
-        """The names of the modules that the object is in, the outermost first; none in the compiled file."""
-        return tuple(use.module for use in reversed(self.trail))
-
-    @property
-    def span(self) -> Span:
-        """The name if the object has one, else the whole node."""
-        return self.node.span if self.key is None else self.key.span
-
-    def at(self, *path: str | int) -> Span:
-        """Return the span of the deepest node that exists on the path; this object's own if none does."""
-        node = self.node
-        span = self.span
-        for key in path:
-            if isinstance(key, Key):
-                return node.key_span(key) or span
-            inner = node.child(key)
-            if inner is None:
-                break
-            node, span = inner, inner.span
-        return span
-
-    def __deepcopy__(self, memo: object) -> SourceRef:
-        return self
-
-
-class Sourced:
-    """A value with the place where it was written, None if it was not read.
-
-    `source` is no field of the dataclasses that are derived from this class: it is neither compared nor hashed, shown,
-    or converted by `asdict`. It is not called `origin`, as half of the IR has an `origin` that is a pose.
-    """
-
-    source: SourceRef | None = None
-
-    def with_source(self, source: SourceRef | None) -> Self:
-        """Return a copy of the value that was written there."""
-        value = copy(self)
-        object.__setattr__(value, "source", source)  # the value may be frozen
-        return value

@@ -8,8 +8,7 @@ from linkforge_compile.core import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.instance import Instance
 from linkforge_compile.lower import Lowered, lower
-from linkforge_compile.source import SourceFile, SourceRef
-from linkforge_compile.source.span import ModuleUse
+from linkforge_compile.source import ModuleUse, SourceFile, SourceRef
 from linkforge_compile.syntax import YamlMap, read
 from tests.yaml_case import Finding, expected
 
