@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.diagnostics.fix import Edit, Fix, shift_lines_below
 from linkforge_compile.source import Located, SourceFile, SourceRef, Span
 
 _BLANK = re.compile(r"(?:\s|(?<!\S)#[^\r\n]*)*")
@@ -64,8 +64,7 @@ def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:
     if any(file.line(place.line)[: place.column - 1].strip() for place in written):
         return None
     edits = [Edit(Span(file, *place.start, *place.start), "- ") for place in written]
-    below = (line for place in written for line in range(place.line + 1, place.end_line + 1) if file.line(line).strip())
-    return Fix(title, (*edits, *(Edit(Span(file, line, 1, line, 1), "  ") for line in below)))
+    return Fix(title, (*edits, *(edit for place in written for edit in shift_lines_below(place, len("- ")))))
 
 
 def add_entry(ref: SourceRef | None, *path: str | int, entry: str, after: str = "") -> Fix | None:

@@ -108,6 +108,25 @@ def _in_quotes(value: str, quote: str) -> str:
     return f"{other}{value}{other}" if other and "\\" not in value else value
 
 
+def shift_lines(place: Span, columns: int) -> tuple[Edit, ...]:
+    """Return the edits that move the lines of a place to the right, or to the left as far as they have spaces.
+
+    Empty lines stay as they are. The line on which a place ends before its first column is none of its lines.
+    """
+    edits = []
+    for line in range(place.line, place.end_line + (place.end_column > 1)):
+        text = place.file.line(line)
+        if text.strip() and columns:
+            removed = min(max(-columns, 0), len(text) - len(text.lstrip(" ")))
+            edits.append(Edit(Span(place.file, line, 1, line, 1 + removed), " " * columns))
+    return tuple(edits)
+
+
+def shift_lines_below(place: Span, columns: int) -> tuple[Edit, ...]:
+    """Return the edits that move the lines of a place but for the first one."""
+    return shift_lines(place._replace(line=place.line + 1), columns)
+
+
 def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:
     """Return the fixes that can be applied together: of two that change the same text, the first."""
     taken: dict[str, list[tuple[int, int]]] = {}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from linkforge_compile.diagnostics.fix import Edit, Fix
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.diagnostics.fix import Edit, Fix, shift_lines, shift_lines_below
+from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, is_null
 
 _STEP = 2
@@ -57,12 +57,8 @@ def under_name(node: YamlMap) -> Fix | None:
         between = Span(file, *name.key.span.end, *entries[0].key.span.start)
         end = Span(file, *entries[-1].value.span.end, *entries[-1].value.span.end)
         return Fix(title, (Edit(between, ": {"), Edit(end, "}")))
-    lines = range(entries[0].key.span.line, entries[-1].value.span.end_line + 1)
-    if name.key.span.line == lines[0]:
-        return None
-    return Fix(
-        title, tuple(Edit(Span(file, line, 1, line, 1), " " * _STEP) for line in lines if file.line(line).strip())
-    )
+    below = Span(file, *entries[0].key.span.start, *entries[-1].value.span.end)
+    return None if name.key.span.line == below.line else Fix(title, shift_lines(below, _STEP))
 
 
 def _name_of(item: YamlNode, *, is_empty_allowed: bool) -> YamlScalar | None:
@@ -111,17 +107,6 @@ def _in_block(item: YamlNode, name: YamlScalar, key: Span | None) -> list[Edit]:
         return [Edit(begin, blank), Edit(whole, text)] if text else []
     own = next(iter(item)) if isinstance(item, YamlMap) else None
     if own is None or own.key is name:
-        lines = _shifted(file, place, shift - (place.column - column))
-        return [Edit(begin, blank), *lines]
+        return [Edit(begin, blank), *shift_lines_below(place, shift - (place.column - column))]
     after = Span(file, *place.start, *name.span.end)
-    return [Edit(begin, blank), Edit(after, f"{name.text}:"), *_shifted(file, place, shift)]
-
-
-def _shifted(file: SourceFile, place: Span, columns: int) -> list[Edit]:
-    """Return the edits that move the lines of a place below its first one."""
-    edits = []
-    for line in range(place.line + 1, place.end_line + 1):
-        if file.line(line).strip() and columns:
-            end = 1 if columns > 0 else 1 - columns
-            edits.append(Edit(Span(file, line, 1, line, end), " " * max(columns, 0)))
-    return edits
+    return [Edit(begin, blank), Edit(after, f"{name.text}:"), *shift_lines_below(place, shift)]

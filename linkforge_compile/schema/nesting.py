@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from linkforge_compile.diagnostics.fix import Edit, Fix
+from linkforge_compile.diagnostics.fix import Edit, Fix, shift_lines, shift_lines_below
 from linkforge_compile.schema.shapes import nested
 from linkforge_compile.source import Span
 from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlScalar, is_null
@@ -30,13 +30,14 @@ def under_key(key: str, entries: Sequence[YamlEntry], around: YamlMap) -> Fix | 
         begin, end = (Span(place.file, *at, *at) for at in (place.start, place.end))
         return Fix(title, (Edit(begin, f"{key}: {{"), Edit(end, "}")))
     if section is None:
-        header = f"{' ' * (place.column - 1)}{key}:{place.file.newline}"
-        return _indented(title, place, header, len(_STEP))
+        start = Span(place.file, *place.start, *place.start)
+        line = f"{key}:{place.file.newline}{' ' * (place.column - 1)}{_STEP}"
+        return Fix(title, (Edit(start, line), *shift_lines_below(place, len(_STEP))))
     before = written[at - 1] if at else None
     inner = next(iter(section), None) if isinstance(section, YamlMap) and not section.span.is_flow else None
     if before is None or before.value is not section or inner is None:
         return None
-    return _indented(title, place, "", inner.key.span.column - place.column)
+    return Fix(title, shift_lines(place, inner.key.span.column - place.column))
 
 
 def as_path(steps: Sequence[str], entry: YamlEntry) -> Fix | None:
@@ -86,7 +87,7 @@ def without_map(entry: YamlEntry, around: YamlMap) -> Fix | None:
     if first.line != place.line + 1:
         return None
     whole = Span(place.file, first.line, first.column, place.end_line, place.end_column)
-    edits = _indented(title, whole, "", place.column - first.column).edits
+    edits = shift_lines(whole, place.column - first.column)
     return Fix(title, (Edit(Span(place.file, place.line, 1, first.line, 1), ""), *edits))
 
 
@@ -116,17 +117,3 @@ def _place(entries: Sequence[YamlEntry]) -> Span | None:
 
 def _begins_line(place: Span) -> bool:
     return not place.file.line(place.line)[: place.column - 1].strip(" ")
-
-
-def _indented(title: str, place: Span, header: str, columns: int) -> Fix:
-    """Return the fix that moves the lines of a place to the right, or to the left, below a header."""
-    edits = []
-    for line in range(place.line, place.end_line + 1):
-        text = place.file.line(line)
-        above = header if line == place.line else ""
-        if text.strip() and columns >= 0:
-            edits.append(Edit(Span(place.file, line, 1, line, 1), above + " " * columns))
-        elif text.strip():
-            blank = min(-columns, len(text) - len(text.lstrip(" ")))
-            edits.append(Edit(Span(place.file, line, 1, line, blank + 1), above))
-    return Fix(title, tuple(edits))

@@ -24,6 +24,10 @@ from tests.schema.test_nesting import fixed
             "links:\n  - base:\n      visual: {sphere: 1}\n",
             "links:\n  base:\n    visual: {sphere: 1}\n",
         ),
+        (
+            "links:\n  - base:\n      visual:\n# of steel\n        sphere: 1\n",
+            "links:\n  base:\n    visual:\n# of steel\n      sphere: 1\n",
+        ),
         ("links:\r\n- name: base\r\n", "links:\r\n  base:\r\n"),
         ("joints:\n  turn:\n  type: fixed\n\n  parent: a\n", "joints:\n  turn:\n    type: fixed\n\n    parent: a\n"),
         ("joints: {turn: , type: fixed, parent: a}\n", "joints: {turn: {type: fixed, parent: a}}\n"),

@@ -34,6 +34,11 @@ def fixed(folder: Path, text: str, code: str = "LF2101") -> list[str]:
             "links: {a: {visual: {sphere: 1, xyz: [0, 0, 1]}}}\n",
             "links: {a: {visual: {sphere: 1, origin: {xyz: [0, 0, 1]}}}}\n",
         ),
+        (
+            "links:\n  base:\n    visual:\n    - rpy:\n      - 0\n      - 0\n      - 1\n      sphere: 1\n",
+            "links:\n  base:\n    visual:\n    - origin:\n        rpy:\n        - 0\n        - 0\n        - 1\n"
+            "      sphere: 1\n",
+        ),
         # a neighbour of its section
         (
             "links:\n    base: {}\nmaterials:\n    red: {color: [1, 0, 0]}\nblue:\n    color: [0, 0, 1]\n",
