@@ -99,12 +99,8 @@ def _position(joint: Joint, text: str, pose: str) -> float:
 
 def _number(text: str, unit: str) -> float | None:
     """Return a number in an SI unit, of a text with or without a unit; None for any other text."""
-    from linkforge_compile.units import parse_quantity
+    from linkforge_compile.units import finite_number, parse_quantity
 
     if quantity := parse_quantity(text):
         return quantity.value if quantity.dimension.si_unit == unit else None
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
+    return finite_number(text)

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_depth_first, walk_down
-from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.robot import Robot
+
 
 WORLD = "world"
 """The body that simulators have by themselves; a root link of this name is that body."""
@@ -67,3 +68,11 @@ class KinematicTree(NamedTuple):
 def fixed_joints(robot: Robot) -> Iterator[Joint]:
     """Yield the fixed joints whose child is a link of the robot."""
     return (joint for joint in robot.joints if joint.type == JointType.FIXED and robot.has_link(joint.child))
+
+
+def leader_of(joint: Joint, robot: Robot) -> Joint | None:
+    """Return the joint that a joint mimics; None where one of them has other than one axis, as for LF5502."""
+    if joint.mimic is None or joint.type not in SINGLE_AXIS or not robot.has_joint(joint.mimic.joint):
+        return None
+    leader = robot.joints[joint.mimic.joint]
+    return leader if leader.type in SINGLE_AXIS else None

@@ -23,9 +23,8 @@ from linkforge_compile.formats.element import (
     place_of_attribute,
     raw_texts,
 )
-from linkforge_compile.formats.parts import Doubtful, Held, Part
+from linkforge_compile.formats.parts import Doubtful, Held, Part, unwritable_raw, unwritable_texts
 from linkforge_compile.formats.raw import well_formed_elements
-from linkforge_compile.formats.unwritable import unwritable_raw, unwritable_texts
 from linkforge_compile.formats.xml_document import InsideError
 from linkforge_compile.source import Key, SourceRef, Span
 

@@ -27,6 +27,15 @@ def number_text(value: float) -> str:
     return double_text(value)
 
 
+def finite_number(text: str | None) -> float | None:
+    """Return the finite number that a text spells for Python; None for any other text, and for no text."""
+    try:
+        number = float(text or "")
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
 def is_in_full(text: str) -> bool:
     """Whether a text is a decimal number with a point and no exponent, as in `1.0` and `0.50`."""
     return _IN_FULL.fullmatch(text) is not None

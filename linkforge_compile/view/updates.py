@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypedDict
 
@@ -14,7 +13,7 @@ from linkforge_compile.diagnostics.reports import count_losses
 from linkforge_compile.expand import CliArgument, arguments_from_text
 from linkforge_compile.expand.arguments import names_in_variant
 from linkforge_compile.listing import ListedParameter, Listing, Plain, as_written
-from linkforge_compile.units import number_text, parse_quantity
+from linkforge_compile.units import finite_number, number_text, parse_quantity
 from linkforge_compile.view.files import MissingFile
 from linkforge_compile.view.scene import Scene
 
@@ -118,13 +117,7 @@ def _shown(parameter: ListedParameter, value: str | None, of_variant: str | None
 def _number(text: str | None) -> float | None:
     """Return the number of a text without a unit, or of a quantity in its SI unit; None for any other text."""
     quantity = parse_quantity(text) if text else None
-    if quantity:
-        return quantity.value
-    try:
-        number = float(text or "")
-    except ValueError:
-        return None
-    return number if math.isfinite(number) else None
+    return quantity.value if quantity else finite_number(text)
 
 
 def _as_choice(text: str | None, unit: str | None) -> str | None:

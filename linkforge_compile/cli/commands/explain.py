@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.export_spec import Explanation, UnknownPathError
-    from linkforge_compile.formats.ros2_controllers.origins import Explained, Origin
+    from linkforge_compile.formats.ros2_controllers.complete import Completed, Origin
 
 _EXAMPLES = """\
 PATH is the path of the value in the finished robot, with keys in their long form and final names.
@@ -93,17 +93,17 @@ def _explain_value(arguments: argparse.Namespace) -> int:
     return OK
 
 
-def _explained_controllers(robot: Robot, path: str) -> tuple[Explained, ...]:
+def _explained_controllers(robot: Robot, path: str) -> tuple[Completed, ...]:
     """Return the controllers of a robot's outputs if a path leads to a field of one, else none."""
     section, _, field = (*path.strip("/").split("/"), "", "")[:3]
     if section != "controllers" or field == "parameters":
         return ()
-    from linkforge_compile.formats.ros2_controllers.origins import explained_controllers
+    from linkforge_compile.formats.ros2_controllers.complete import explained_controllers
 
     return explained_controllers(robot)
 
 
-def _origin_at(controllers: Sequence[Explained], path: str) -> Origin | None:
+def _origin_at(controllers: Sequence[Completed], path: str) -> Origin | None:
     """Return where the field of a controller comes from that a path leads to; None for one at its own place."""
     _, name, field = (*path.strip("/").split("/"), "", "")[:3]
     origins = next((one.origins for one in controllers if one.controller.name == name), None)

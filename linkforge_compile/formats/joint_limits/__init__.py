@@ -42,6 +42,6 @@ class JointLimitsYaml(Format):
         return (render_yaml(self, "joint_limits.yaml.j2", robot, rendering),)
 
     def view(self, robot: Robot, options: Options) -> View:
-        from linkforge_compile.formats.joint_limits.view import limits_view
+        from linkforge_compile.formats.joint_limits.limits import limits_view
 
         return limits_view(robot)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
-from linkforge_compile.formats.mjcf.actuators import number_of
 from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.units import finite_number
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -88,7 +88,7 @@ def sliding_frictions(robot: Robot) -> Mapping[str, float]:
     frictions: dict[str, float] = {}
     for block in robot.gazebo_elements:
         text = block.properties.get("mu1")
-        mu = number_of(text) if isinstance(text, str) else None
+        mu = finite_number(text) if isinstance(text, str) else None
         if block.reference and mu is not None:
             frictions.setdefault(block.reference, mu)
     return frictions | {link.name: link.physics.mu for link in robot.links if link.physics.is_written("mu")}

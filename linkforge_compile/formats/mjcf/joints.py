@@ -1,20 +1,67 @@
-"""Joints in MJCF, and the equalities that hold some of them."""
+"""Joints in MJCF, the equalities that hold some of them, and their actuators."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import IDENTITY, Vector3
-from linkforge_compile.core.models.joint import AXES, Joint, JointLimits, JointType
+from linkforge_compile.core.models.joint import AXES, SINGLE_AXIS, Joint, JointLimits, JointType
+from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
-from linkforge_compile.formats.kinematic_tree import WORLD
-from linkforge_compile.formats.mjcf.joint_class import JointClass, Settings, Values
-from linkforge_compile.formats.single_axis import leader_of
-from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.formats.kinematic_tree import WORLD, leader_of
+from linkforge_compile.formats.xml_text import Spellable, Xml
+from linkforge_compile.units import finite_number
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.source import SourceRef
+
+
+Values: TypeAlias = Mapping[str, Spellable | None]
+"""Attributes by name; None for none."""
+
+NAME = "joint"
+
+
+class Settings(NamedTuple):
+    """The values of a joint, or of the actuator of one, by its tag, and where they are written."""
+
+    tag: str
+    values: Values
+    source: SourceRef | None
+
+
+class JointClass(NamedTuple):
+    """By tag, the settings that more than half of its elements have, and two at least."""
+
+    settings: Mapping[str, Settings]
+
+    @classmethod
+    def of(cls, all_settings: Sequence[Settings]) -> JointClass:
+        elements = Counter(one.tag for one in all_settings)
+        sharing = Counter(map(_key, all_settings))
+        common: dict[str, Settings] = {}
+        for one in all_settings:
+            has_values = any(value is not None for value in one.values.values())
+            if has_values and sharing[_key(one)] > max(1, elements[one.tag] / 2):
+                common.setdefault(one.tag, one)
+        return cls(common)
+
+    def attributes(self, tag: str, values: Values) -> dict[str, Spellable | None]:
+        """Return the reference to this class for the values that it has, other values themselves."""
+        known = self.settings.get(tag)
+        return {"class": NAME} if known and known.values == values else dict(values)
+
+    def elements(self) -> Sequence[Xml]:
+        """Return what `<default>` contains for this class."""
+        return [leaf_at(tag, source, **values) for tag, values, source in self.settings.values()]
+
+
+def _key(settings: Settings) -> tuple[str, tuple[tuple[str, Spellable | None], ...]]:
+    return settings.tag, tuple(settings.values.items())
+
 
 _X, _Y, _Z = (AXES[name] for name in "xyz")
 
@@ -150,3 +197,83 @@ def _equalities(joint: Joint, robot: Robot) -> Sequence[Xml]:
         coefficients = (limits.lower or 0.0, 0, 0, 0, 0)
         return (leaf_at("joint", limits.source, joint1=joint.name, polycoef=coefficients),)
     return ()
+
+
+_TAGS = {"position": "position", "velocity": "velocity", "effort": "motor", "torque": "motor", "force": "motor"}
+INTERFACES = tuple(_TAGS)
+"""The command interfaces that MuJoCo has actuators for."""
+
+GAINS: Mapping[str, Sequence[str]] = {"position": ("kp", "kv"), "velocity": ("kv",)}
+"""The parameters of interfaces that are gains of their actuators, which need the first."""
+
+Range = tuple[float, float]
+
+
+class Drive(NamedTuple):
+    """A joint that hardware commands, by the first of its command interfaces that MuJoCo has an actuator for.
+
+    `others` are its further command interfaces. Two actuators of one joint would act against each other.
+    """
+
+    joint: Joint
+    hardware: Ros2ControlJoint
+    interface: Interface
+    others: tuple[Interface, ...]
+
+
+def drives(robot: Robot) -> Iterator[Drive]:
+    """Yield each driven joint once; one that mimics another is moved by that one."""
+    seen: set[str] = set()
+    for hardware in (joint for system in robot.ros2_controls for joint in system.joints):
+        interfaces = [Interface.of(name) for name in hardware.command_interfaces]
+        known = next((one for one in interfaces if str(one) in INTERFACES), None)
+        if known is None or hardware.name in seen or not robot.has_joint(hardware.name):
+            continue
+        joint = robot.joints[hardware.name]
+        if joint.type in SINGLE_AXIS and not joint.mimic:
+            seen.add(joint.name)
+            yield Drive(joint, hardware, known, tuple(one for one in interfaces if one is not known))
+
+
+def actuator_element(drive: Drive, joint_class: JointClass) -> Xml:
+    """Return the actuator of a joint, with the range of its command; that of its force is the joint's."""
+    tag, gains, source = actuator_settings(drive)
+    name = drive.joint.name
+    values = joint_class.attributes(tag, gains)
+    return leaf_at(tag, source, name=name, joint=name, ctrlrange=_command_range(drive), **values)
+
+
+def actuator_settings(drive: Drive) -> Settings:
+    """Return the gains of the actuator of a joint."""
+    interface = str(drive.interface)
+    values: Values = {name: _gain(drive, name) for name in GAINS.get(interface, ())}
+    return Settings(_TAGS[interface], values, drive.interface.source or drive.hardware.source)
+
+
+def _command_range(drive: Drive) -> Range | None:
+    """Return the range of the commands, which the interface states, or that of the joint."""
+    parameters, limits = drive.interface.parameters, drive.joint.limits
+    stated = _both(finite_number(parameters.get("min")), finite_number(parameters.get("max")))
+    if stated or limits is None:
+        return stated
+    match _TAGS[str(drive.interface)]:
+        case "velocity":
+            return symmetric(limits.velocity)
+        case "motor":
+            return symmetric(limits.effort)
+    has_range = drive.joint.type != JointType.CONTINUOUS and not is_locked(limits)
+    return _both(limits.lower, limits.upper) if has_range else None
+
+
+def has_gain(drive: Drive) -> bool:
+    """Whether an actuator that needs a gain has one; MuJoCo's default is 1, too weak for most robots."""
+    gains = GAINS.get(str(drive.interface))
+    return not gains or _gain(drive, gains[0]) is not None
+
+
+def _gain(drive: Drive, name: str) -> float | None:
+    return finite_number(drive.interface.parameters.get(name, drive.hardware.parameters.get(name)))
+
+
+def _both(lower: float | None, upper: float | None) -> Range | None:
+    return (lower, upper) if lower is not None and upper is not None and lower < upper else None

@@ -11,9 +11,9 @@ from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
-from linkforge_compile.formats.mjcf.actuators import Drive, drives, number_of
-from linkforge_compile.formats.mjcf.joints import range_of
+from linkforge_compile.formats.mjcf.joints import Drive, drives, range_of
 from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.units import finite_number
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
@@ -70,7 +70,7 @@ def _initial_positions(robot: Robot) -> Iterator[tuple[str, float, SourceRef | N
         if not robot.has_joint(hardware.name) or robot.joints[hardware.name].type not in SINGLE_AXIS:
             continue
         for state in map(Interface.of, hardware.state_interfaces):
-            value = number_of(state.parameters.get(INITIAL_VALUE))
+            value = finite_number(state.parameters.get(INITIAL_VALUE))
             if state == "position" and value is not None:
                 yield hardware.name, value, state.source or hardware.source
 

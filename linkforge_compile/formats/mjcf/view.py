@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.joint import SINGLE_AXIS
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import KinematicTree
-from linkforge_compile.formats.mjcf.actuators import actuator_element, actuator_settings, drives
-from linkforge_compile.formats.mjcf.bodies import body_views, world_elements
+from linkforge_compile.formats.mjcf.bodies import body_views, sensor_elements, world_elements
 from linkforge_compile.formats.mjcf.contacts import exclusion_elements
-from linkforge_compile.formats.mjcf.joint_class import JointClass
-from linkforge_compile.formats.mjcf.joints import equality_elements, joint_settings
+from linkforge_compile.formats.mjcf.joints import (
+    JointClass,
+    actuator_element,
+    actuator_settings,
+    drives,
+    equality_elements,
+    joint_settings,
+)
 from linkforge_compile.formats.mjcf.keyframes import key_elements
 from linkforge_compile.formats.mjcf.meshes import mesh_assets
-from linkforge_compile.formats.mjcf.sensors import sensor_elements
 from linkforge_compile.formats.views import View
 
 if TYPE_CHECKING:

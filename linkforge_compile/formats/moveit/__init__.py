@@ -60,8 +60,12 @@ class MoveIt(Format):
         return missing_groups(robot)
 
     def limits(self, robot: Robot, options: Options) -> Iterator[Diagnostic]:
-        from linkforge_compile.formats.moveit.collisions import check_adjacent_links
-        from linkforge_compile.formats.moveit.limits import check_execution, check_joint_states, check_solvers
+        from linkforge_compile.formats.moveit.limits import (
+            check_adjacent_links,
+            check_execution,
+            check_joint_states,
+            check_solvers,
+        )
 
         others = (one.limits(robot, options) for one in _WHOLE_FILES.values())
         return chain(

@@ -7,6 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.controller_kinds import KINDS, OTHER_CLASSES, STATES, kind_of, lift_parameters
+from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.diagnostics.codes.collisions import ADJACENT_CHECKED
 from linkforge_compile.diagnostics.codes.formats import (
     NO_GROUP_TO_PLAN,
     NO_JOINT_STATES,
@@ -18,8 +20,12 @@ from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.groups import chain_groups, faulty_groups, joints_by_group
 from linkforge_compile.formats.moveit.view import SOLVER_PARAMETERS, executing_controllers, moveit_view
-from linkforge_compile.formats.ros2_controllers.class_names import misspelled_class
-from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers, has_faulty_names
+from linkforge_compile.formats.ros2_controllers.complete import (
+    commanded_joints,
+    complete_controllers,
+    has_faulty_names,
+    misspelled_class,
+)
 from linkforge_compile.source import Key
 
 if TYPE_CHECKING:
@@ -85,3 +91,35 @@ def _reason(robot: Robot, joints: list[str], missing: list[str], hardware: Mappi
         verb = "has" if len(uncommanded) == 1 else "have"
         return f"{listed(uncommanded, 'and')} {verb} no command interface in `ros2_control`"
     return f"no controller of trajectories has {listed(missing, 'and')}"
+
+
+def check_adjacent_links(robot: Robot) -> Iterator[Diagnostic]:
+    """Two links with collisions that a joint connects are a pair of the self-collision matrix.
+
+    Neighbors usually touch, so that every state of the robot would be in collision. A pair in `enabled_collisions`, and
+    links without default collisions, are decided already.
+    """
+    if not robot.has_semantic:
+        return
+    semantic = robot.semantic
+    decided = {
+        frozenset((pair.link1, pair.link2)) for pair in (*semantic.disabled_collisions, *semantic.enabled_collisions)
+    }
+    off = frozenset(semantic.no_default_collision_links)
+    with_shapes = {link.name for link in robot.links if link.collisions}
+    for parent, child in _adjacent_links(robot, with_shapes):
+        if frozenset((parent, child)) not in decided and off.isdisjoint((parent, child)):
+            place = (robot.source, "semantic", "disabled_collisions")
+            yield ADJACENT_CHECKED.at(*place, pair=f"{parent} and {child}")
+
+
+def _adjacent_links(robot: Robot, with_shapes: set[str]) -> Iterator[tuple[str, str]]:
+    """Yield each link with collisions after the nearest one above it that has some, unless it can float away."""
+    above = {joint.child: joint for joint in robot.joints}
+    for link in robot.links:
+        joint = above.get(link.name) if link.name in with_shapes else None
+        while joint and joint.type not in (JointType.FLOATING, JointType.PLANAR):
+            if joint.parent in with_shapes:
+                yield joint.parent, link.name
+                break
+            joint = above.get(joint.parent)

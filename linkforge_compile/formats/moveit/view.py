@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from linkforge_compile.formats.groups import chain_groups
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
 from linkforge_compile.formats.source_map import origin_of
 from linkforge_compile.formats.views import View
+from linkforge_compile.units import finite_number
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.controller import Controller
@@ -97,7 +97,7 @@ def _initial_positions(robot: Robot) -> Iterator[View]:
 def _initial_position(robot: Robot, joint: Joint, hardware: Ros2ControlJoint) -> tuple[float, str]:
     """Return a position, and the attribute for its place."""
     for interface in map(Interface.of, hardware.state_interfaces):
-        number = _number(interface.parameters.get("initial_value")) if interface == "position" else None
+        number = finite_number(interface.parameters.get("initial_value")) if interface == "position" else None
         if number is not None:
             return number, origin_of(interface.source, "initial_value")
     for state in robot.semantic.group_states if robot.has_semantic else ():
@@ -108,11 +108,3 @@ def _initial_position(robot: Robot, joint: Joint, hardware: Ros2ControlJoint) ->
     lower, upper = (limits.lower, limits.upper) if limits else (None, None)
     nearest = max(0.0, lower) if lower is not None else 0.0
     return float(min(nearest, upper) if upper is not None else nearest), ""
-
-
-def _number(text: str | None) -> float | None:
-    try:
-        number = float(text) if text is not None else math.nan
-    except ValueError:
-        return None
-    return number if math.isfinite(number) else None

@@ -27,7 +27,7 @@ class Ros2Controllers(Format):
     loses = "the hardware, which the controller manager reads from the URDF"
 
     def missing(self, robot: Robot) -> Diagnostic | None:
-        from linkforge_compile.formats.ros2_controllers.limits import missing_hardware
+        from linkforge_compile.formats.ros2_controllers.complete import missing_hardware
 
         return missing_hardware(robot)
 

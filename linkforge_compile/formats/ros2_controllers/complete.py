@@ -13,28 +13,41 @@ from linkforge_compile.core.models.controller import (
     Controller,
     default_name,
 )
-from linkforge_compile.core.models.controller_kinds import FORWARD, GRIPPER, STATES, TRAJECTORY, lift_parameters
+from linkforge_compile.core.models.controller_kinds import (
+    FORWARD,
+    GRIPPER,
+    KINDS,
+    OTHER_CLASSES,
+    PARAMETERS_OF_FIELDS,
+    STATES,
+    TRAJECTORY,
+    lift_parameters,
+    path_of_field,
+)
 from linkforge_compile.core.models.manager_parameters import loaded_class
+from linkforge_compile.diagnostics.codes.formats import NO_HARDWARE
 from linkforge_compile.diagnostics.enumerations import listed
+from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+    from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.source import SourceRef
+
 
 _COMMANDS = ("position", "velocity", "effort")
 _STATES = ("position", "velocity")
 
 
-class Derived(NamedTuple):
-    """The value of a field that follows from the robot, and why.
+class Origin(NamedTuple):
+    """Where a value was written, as a path below a source, or what it follows from.
 
-    `subject` is the part that it follows from, and `source` and `path` are where that was written.
+    `why` it follows from the part `subject`, which was written there; "" for a value that was written itself.
     """
 
-    value: tuple[str, ...]
     why: str
     subject: str
     source: SourceRef | None
@@ -42,10 +55,23 @@ class Derived(NamedTuple):
 
 
 class Completed(NamedTuple):
-    """A controller with all of its fields, and those of them that follow from the robot, by name."""
+    """A controller with all of its fields, and the origins of those that are not at their places, by name.
+
+    The one of "" is that of a default controller as a whole.
+    """
 
     controller: Controller
-    derived: Mapping[str, Derived]
+    origins: Mapping[str, Origin]
+
+    def with_field(self, field: str, names: tuple[str, ...], origin: Origin) -> Completed:
+        return Completed(self.controller.with_fields(**{field: names}), {**self.origins, field: origin})
+
+
+def missing_hardware(robot: Robot) -> Diagnostic | None:
+    """Return why a robot has no controllers; None if it has some."""
+    if robot.ros2_controls or any(one.name != MANAGER for one in robot.controllers):
+        return None
+    return NO_HARDWARE.at(robot.source, "name", robot=robot.name)
 
 
 def complete_controllers(robot: Robot) -> tuple[Controller, ...]:
@@ -81,12 +107,7 @@ def _with_joints(
         return completed
     group = next(group for group in robot.semantic.groups if group.name == controller.group)
     why = f"the joints of planning group '{group.name}' that have a command interface in `ros2_control`"
-    return _with_derived(completed, joints=Derived(joints, why, f"planning group '{group.name}'", group.source))
-
-
-def _with_derived(completed: Completed, **derived: Derived) -> Completed:
-    values = {field: each.value for field, each in derived.items()}
-    return Completed(completed.controller.with_fields(**values), {**completed.derived, **derived})
+    return completed.with_field("joints", joints, Origin(why, f"planning group '{group.name}'", group.source))
 
 
 def has_faulty_names(robot: Robot, controller: Controller) -> bool:
@@ -125,9 +146,9 @@ def _default_controllers(robot: Robot) -> Iterator[Completed]:
     joints = [joint.name for joint in actuated_joints(robot) if joint.name in hardware]
     if joints and not groups:
         why = "the joints that have a command interface in `ros2_control`"
-        of_hardware = Derived(tuple(joints), why, f"joint '{joints[0]}' of `ros2_control`", hardware[joints[0]].source)
+        of_hardware = Origin(why, f"joint '{joints[0]}' of `ros2_control`", hardware[joints[0]].source)
         all_joints = Completed(Controller(DEFAULT_TRAJECTORY, TRAJECTORY), {})
-        yield _with_derived(all_joints, joints=of_hardware)
+        yield all_joints.with_field("joints", tuple(joints), of_hardware)
 
 
 def _with_interfaces(completed: Completed, hardware: Mapping[str, Ros2ControlJoint]) -> Completed:
@@ -143,21 +164,50 @@ def _with_interfaces(completed: Completed, hardware: Mapping[str, Ros2ControlJoi
         "command_interfaces": (commands, f"the first of {listed(_COMMANDS, 'and')}"),
         "state_interfaces": (states if reads else (), f"those of {listed(_STATES, 'and')}"),
     }
-    derived = {
-        field: Derived(
-            names,
-            f"{which} that all of its joints have in `ros2_control`",
-            f"joint '{joints[0].name}' of `ros2_control`",
-            joints[0].source,
-            (field,),
-        )
-        for field, (names, which) in found.items()
-        if names and not getattr(controller, field)
-    }
-    return _with_derived(completed, **derived)
+    for field, (names, which) in found.items():
+        if names and not getattr(controller, field):
+            why, subject = f"{which} that all of its joints have in `ros2_control`", f"joint '{joints[0].name}'"
+            origin = Origin(why, f"{subject} of `ros2_control`", joints[0].source, (field,))
+            completed = completed.with_field(field, names, origin)
+    return completed
 
 
 def _common(names: tuple[str, ...], of_joints: Iterable[Iterable[str]]) -> Iterator[str]:
     """Yield the names that each joint has; none without joints."""
     sets = [frozenset(map(str, interfaces)) for interfaces in of_joints]
     return (name for name in names if sets and all(name in interfaces for interfaces in sets))
+
+
+_TYPING_ERRORS = 2
+"""By how many letters a misspelled class is shorter or longer; other packages have longer names."""
+
+
+def misspelled_class(type_: str | None) -> str | None:
+    """Return the class of ros2_controllers that a type misspells; None for a class of another package."""
+    if not type_ or type_ in KINDS or type_ in OTHER_CLASSES:
+        return None
+    near = nearest(type_, (*KINDS, *OTHER_CLASSES))
+    if near is None:
+        return None
+    is_of_package = type_.split("/")[0] == near.split("/")[0]
+    return near if is_of_package or abs(len(type_) - len(near)) <= _TYPING_ERRORS else None
+
+
+def explained_controllers(robot: Robot) -> tuple[Completed, ...]:
+    """Return the controllers of the outputs; none for a robot without hardware, for which there is no file of them."""
+    if missing_hardware(robot):
+        return ()
+    are_stated = any(one.name != MANAGER for one in robot.controllers)
+    return tuple(_with_all_origins(one, are_stated) for one in completed_controllers(robot))
+
+
+def _with_all_origins(completed: Completed, are_stated: bool) -> Completed:
+    """Add where the fields were written that are parameters in the spec, and why there is a default controller."""
+    controller = completed.controller
+    paths = {field: path_of_field(controller, field) for field in PARAMETERS_OF_FIELDS}
+    origins = {field: Origin("", "", controller.source, path) for field, path in paths.items() if path != (field,)}
+    origins |= completed.origins
+    if not are_stated:
+        subject = f"planning group '{controller.group}'" if controller.group else ""
+        origins[""] = Origin("a default, because the spec has no `controllers`", subject, controller.source)
+    return Completed(controller, origins)

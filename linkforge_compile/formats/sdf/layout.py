@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
-from linkforge_compile.core.poses import NO_TURN
+from linkforge_compile.core.poses import NO_TURN, Pose
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
-from linkforge_compile.formats.sdf.relative_pose import relative_pose
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
 from linkforge_compile.formats.unique_name import unique_name
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.link import Link
     from linkforge_compile.core.models.robot import Robot
+
 
 MODEL = "__model__"
 """The frame of the model, where its root link is."""
@@ -168,3 +168,21 @@ def _carrier(
     carrier = next((one.child for one in walk_down((link,), holding) if _has_mass(robot.links[one.child])), None)
     is_turned = carrier and relative_pose(carrier, link, above).turn != NO_TURN
     return None if is_turned and ForceTorqueFrame.CHILD in axes else carrier
+
+
+_HERE = Pose((0.0, 0.0, 0.0), NO_TURN)
+
+
+def relative_pose(link: str, base: str, above: Mapping[str, Joint]) -> Pose:
+    """Return the pose of a link in the frame of another one of its tree, while all joints are at zero."""
+    pose, top = _pose_below(base, link, above)
+    return pose if top == base else _pose_below(top, base, above)[0].inverse.times(pose)
+
+
+def _pose_below(base: str, link: str, above: Mapping[str, Joint]) -> tuple[Pose, str]:
+    """Return the pose of a link in the frame of one above it, and that link: the root if the base is not above it."""
+    pose, seen = _HERE, {base}
+    while link not in seen and link in above:
+        seen.add(link)
+        pose, link = Pose.of(above[link].origin).times(pose), above[link].parent
+    return pose, link

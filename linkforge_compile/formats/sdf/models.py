@@ -8,11 +8,9 @@ from itertools import takewhile
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.formats.element import attributes_at
-from linkforge_compile.formats.kinematic_tree import WORLD
+from linkforge_compile.formats.kinematic_tree import WORLD, leader_of
 from linkforge_compile.formats.sdf.elements import pose, pose_between, pose_of_frame
-from linkforge_compile.formats.sdf.layout import MODEL, Layout
-from linkforge_compile.formats.sdf.relative_pose import relative_pose
-from linkforge_compile.formats.single_axis import leader_of
+from linkforge_compile.formats.sdf.layout import MODEL, Layout, relative_pose
 from linkforge_compile.formats.source_map import origin_of_use
 from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import NOTHING, Xml

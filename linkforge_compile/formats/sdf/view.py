@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.formats.element import attributes_at, placed
+from linkforge_compile.formats.kinematic_tree import leader_of
 from linkforge_compile.formats.sdf.elements import pose
-from linkforge_compile.formats.sdf.joints import joint_frame, joint_view, link_frame
 from linkforge_compile.formats.sdf.layout import Layout
-from linkforge_compile.formats.sdf.links import Links
-from linkforge_compile.formats.sdf.meshes import MeshUris
+from linkforge_compile.formats.sdf.links import Links, MeshUris, joint_frame, joint_view, link_frame
 from linkforge_compile.formats.sdf.models import ROBOT, Model, Models
 from linkforge_compile.formats.sdf.part_names import PartNames
 from linkforge_compile.formats.sdf.settings import model_elements, nested_model_elements
-from linkforge_compile.formats.single_axis import leader_of
 from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
 from linkforge_compile.formats.views import View

@@ -40,8 +40,7 @@ class Srdf(TemplateFormat):
         if not robot.has_semantic:
             return  # `robot.semantic` would make an empty part
         from linkforge_compile.formats.limits import check_attributes, undeclared_prefixes
-        from linkforge_compile.formats.parts import doubtful_parts_in
-        from linkforge_compile.formats.unwritable import unwritable_texts
+        from linkforge_compile.formats.parts import doubtful_parts_in, unwritable_texts
 
         doubtful = doubtful_parts_in(robot.semantic)
         yield from unwritable_texts(doubtful.parts)
