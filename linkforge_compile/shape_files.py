@@ -27,6 +27,10 @@ class ShapeFiles:
         self._roots = resolver.roots if isinstance(resolver, FileSystemResolver) else ANYWHERE
         self._finder = MeshFinder(robot, UnresolvedNames().with_access(self._roots.hold))
 
+    def place(self, resource: str) -> Path | None:
+        """Return where a file is or should be; None where that is not known, or it may not be read."""
+        return self._finder.path(resource)
+
     def find(self, resource: str) -> Path:
         """Return the file that a shape names.
 
@@ -34,7 +38,7 @@ class ShapeFiles:
             UnreadableError: There is none, or it may not be read; the message is the reason with the way out.
 
         """
-        path = self._finder.path(resource)
+        path = self.place(resource)
         # Asked before the file is looked up, so that no reason reveals whether it exists.
         if resource in self._finder.forbidden:
             raise UnreadableError(OUTSIDE)

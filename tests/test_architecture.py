@@ -70,8 +70,8 @@ MAY_IMPORT = {
         "file_watcher roots units"
     ),
     "sweep": (
-        "source diagnostics units limits syntax expressions core listing load expand formats overview banner roots "
-        "paths analysis compilation file_names atomic_file _version"
+        "source diagnostics units limits syntax expressions core listing load expand formats shape_files overview "
+        "banner roots paths analysis compilation file_names atomic_file _version"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "

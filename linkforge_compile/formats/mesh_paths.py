@@ -36,11 +36,17 @@ class TexturePath(NamedTuple):
     path: Path | None
 
 
-def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
+def meshes_of(robot: Robot) -> Iterator[Mesh]:
     """Yield each mesh of a robot once, those of one file with different scales too, in the order of the links."""
     for mesh in dict.fromkeys(shape.geometry for link in robot.links for shape in link.shapes):
         if isinstance(mesh, Mesh):
-            yield MeshPath(mesh, find_file(robot, mesh.resource))
+            yield mesh
+
+
+def mesh_paths(robot: Robot) -> Iterator[MeshPath]:
+    """Yield each mesh of a robot with the path of its file, as `meshes_of` does."""
+    for mesh in meshes_of(robot):
+        yield MeshPath(mesh, find_file(robot, mesh.resource))
 
 
 def texture_paths(robot: Robot) -> Iterator[TexturePath]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.formats.groups import joints_by_group
-from linkforge_compile.formats.mesh_paths import mesh_paths
+from linkforge_compile.formats.mesh_paths import meshes_of
 from linkforge_compile.overview.extent import Extent, measure_extent
 from linkforge_compile.overview.graph import module_boxes, walk_boxes
 from linkforge_compile.overview.reach import Reach, farthest, reaches_from, zero_poses
@@ -127,7 +127,7 @@ def mass_of(robot: Robot, poses: Mapping[str, Pose]) -> Mass:
 def mesh_files(robot: Robot) -> dict[str, Path | str]:
     """Return the file of each mesh as it is written, or the reason why there is none."""
     files, found = ShapeFiles(robot), dict[str, Path | str]()
-    for mesh in mesh_paths(robot):
+    for mesh in meshes_of(robot):
         try:
             found[mesh.resource] = files.find(mesh.resource)
         except UnreadableError as error:

@@ -15,7 +15,8 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.parameters import Parameter
 from linkforge_compile.formats import Rendering, formats_or_default
-from linkforge_compile.overview.figures import mesh_files
+from linkforge_compile.formats.mesh_paths import meshes_of
+from linkforge_compile.shape_files import ShapeFiles
 from linkforge_compile.source import SourceFile, Span
 from linkforge_compile.source.characters import on_one_line
 from linkforge_compile.sweep.bundle import Tree
@@ -113,9 +114,13 @@ def compile_point(request: Request, point: Point, tree: Tree | None = None) -> C
 
 
 def files_of(compilation: Compilation) -> tuple[Path, ...]:
-    """Return the files that a robot was made from, and the meshes that it only names."""
-    meshes = mesh_files(compilation.robot).values() if compilation.robot else ()
-    return (*compilation.files, *(one for one in meshes if isinstance(one, Path)))
+    """Return the files that a robot was made from, and those of the meshes that it only names; some may not exist."""
+    robot = compilation.robot
+    if robot is None:
+        return compilation.files
+    shapes = ShapeFiles(robot)
+    places = (shapes.place(mesh.resource) for mesh in meshes_of(robot))
+    return (*compilation.files, *filter(None, places))
 
 
 def values_of(request: Request, point: Point) -> dict[str, object]:
