@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import TypeVar
 
-from linkforge_compile.diagnostics import Note, Severity
+from linkforge_compile.diagnostics import Diagnostic, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import ENDS_IN_A_BLANK, KEPT_RAW, TEXT_LEFT_OUT
 from linkforge_compile.importers.raw_xml import raw_with_prefix, tidy, without_instructions
 from linkforge_compile.importers.renaming import rename_in_raw, rename_in_raw_srdf
@@ -243,11 +243,11 @@ class ElementReader:
             raise CannotRepresentError(f"there is no place for its attribute '{name}'", attribute.span)
         for child in self._children:
             raise CannotRepresentError(f"there is no place for <{child.tag}> in it", child.span)
-        self._require_no_text()
+        if self._has_text_left():
+            raise self.cannot_represent("it contains text")
 
     def pass_rest_up(self) -> None:
         """Pass what is left to the parent's `extra_inside`, for an element whose form is a single value."""
-        self._require_no_text()
         rest = {name: node for name, node in self.extras().items() if node is not None}
         self._passed_up = self.draft.map_of(rest, self.element) if rest else None
 
@@ -260,9 +260,7 @@ class ElementReader:
         if self.is_used_up() and not self._inside and not self._names_at_fault:
             return {}
         if self._has_text_left():
-            text = " ".join(self.element.text.split())
-            shown = text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]}..."
-            self.draft.diagnostics.append(TEXT_LEFT_OUT.at(self.span, tag=self.element.tag, text=shown))
+            self.draft.diagnostics.append(text_left_out(self.element))
         extra = self.draft.one_or_list([self._raw(child) for child in self._children])
         if self._names_at_fault:
             extra = YamlFault(self.span, frozenset(self._names_at_fault))
@@ -276,10 +274,6 @@ class ElementReader:
     def _has_text_left(self) -> bool:
         return not self._is_text_taken and bool(self.element.text.strip())
 
-    def _require_no_text(self) -> None:
-        if self._has_text_left():
-            raise self.cannot_represent("it contains text")
-
     def _raw(self, child: XmlElement) -> YamlNode:
         rename = rename_in_raw if self.draft.is_urdf else rename_in_raw_srdf
         raw = rename(without_instructions(child.raw), self.draft.renamed)
@@ -289,6 +283,13 @@ class ElementReader:
         self.draft.raw.add(child)
         self.draft.note_source(node, child)
         return node
+
+
+def text_left_out(element: XmlElement) -> Diagnostic:
+    """Return the warning that the text of an element is omitted."""
+    text = " ".join(element.text.split())
+    shown = text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]}..."
+    return TEXT_LEFT_OUT.at(element.span, tag=element.tag, text=shown)
 
 
 def read_named(owner: ElementReader, tag: str, read: Callable[[ElementReader], YamlNode], key: str = "name") -> Named:

@@ -8,7 +8,7 @@ that the formats define are compared as doubles, all other values as text with n
 from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.fields import Number, Vector, field_specs
@@ -170,14 +170,20 @@ def _recolored_shapes(robot: CanonicalElement, compiled: CanonicalElement) -> It
 
 def _first_recolored(shapes: Iterable[_ShownShape], compiled: Iterable[_ShownShape]) -> XmlElement | None:
     """Return the first shape that the compiled link has too, but only in another color."""
-    left = Counter((shape.number, color) for shape, color in compiled)
-    present = {number for number, _ in left}
+    left = Counter((_without_text(shape), color) for shape, color in compiled)
+    present = {form for form, _ in left}
     for shape, color in shapes:
-        if left[shape.number, color] > 0:
-            left[shape.number, color] -= 1
-        elif shape.number in present:
+        form = _without_text(shape)
+        if left[form, color] > 0:
+            left[form, color] -= 1
+        elif form in present:
             return shape.element
     return None
+
+
+def _without_text(one: CanonicalElement) -> Hashable:
+    """Return what identifies a shape: its text, which no reader uses, may be omitted in the compiled document."""
+    return one.tag, one.attributes, frozenset(Counter(map(_without_text, one.children)).items())
 
 
 def _shown_shapes(link: CanonicalElement, colors: Mapping[str, Rgba]) -> Iterator[_ShownShape]:

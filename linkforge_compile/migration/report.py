@@ -18,6 +18,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     MIGRATION_TOO_LONG,
     MIGRATION_UNPROVED,
 )
+from linkforge_compile.importers.element_reader import text_left_out
 from linkforge_compile.migration.attachment import parts_of
 from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.evaluate import Called
@@ -144,6 +145,9 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
     left_out = (one.origin for spec in migration.specs.values() for one in spec.left_out if one.origin)
     for element in dict.fromkeys(left_out):
         yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag)
+    elements = [one for document in migration.expander.sources.documents.values() for one in document.root.walk()]
+    lost_texts = frozenset().union(*(spec.lost_texts for spec in migration.specs.values()))
+    yield from (found for one in elements if one.text and (found := text_left_out(one)).message in lost_texts)
     for name in sorted(migration.constraints.pinned):
         symbol = migration.expander.arguments[name]
         value = str(symbol.constant)
@@ -152,8 +156,6 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         yield ARGUMENT_PINNED.at(
             symbol.where, name=name, value=value.lower() if isinstance(symbol.constant, bool) else value, notes=notes
         )
-
-    elements = [one for document in migration.expander.sources.documents.values() for one in document.root.walk()]
     for name, value in migration.expander.environment.items():
         reads = re.compile(rf"\$\(optenv\s+{re.escape(name)}\b")
         users = [one.span for one in elements if reads.search(one.raw)]

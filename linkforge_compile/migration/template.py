@@ -156,7 +156,7 @@ def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list
 class Spec:
     """The comment that begins a spec, its tree, the symbols that it declares by their names, and the tags of raw XML.
 
-    `left_out` are elements of the xacro that have no effect.
+    `left_out` are elements of the xacro that have no effect, `lost_texts` the warnings of texts that are omitted.
     """
 
     head: str
@@ -165,6 +165,7 @@ class Spec:
     used: Mapping[Symbol, None]
     raw: tuple[str, ...] = field(default=())
     left_out: tuple[Element, ...] = ()
+    lost_texts: frozenset[str] = frozenset()
     comments: Mapping[YamlNode, str] = field(default_factory=dict)
     endings: Mapping[YamlNode, str] = field(default_factory=dict)
 

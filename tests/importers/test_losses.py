@@ -115,7 +115,8 @@ def test_an_order_is_a_loss_where_mujoco_shows_another_color(was: str, now: str,
 
 def test_a_color_changed_by_raw_xml_is_reported():
     """The tags of these shapes come out in the order in which they stood."""
-    raw = f"<visual>{BALL.replace('/></', '/>raw</')}</visual>"
+    two_shapes = BALL.replace("/></", '/><box size="1 1 1"/></')
+    raw = f"<visual>{two_shapes}</visual>"
     green = PAINTED.replace("0.5 0 0", "0 1 0")
     text = f'<robot name="r">{LINK.format(raw + raw.replace("visual", "collision") + green + TOUCHED)}</robot>'
     assert "LF8140" in {loss.code.id for loss in import_urdf("r.urdf", text=text).losses}

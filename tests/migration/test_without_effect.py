@@ -59,3 +59,19 @@ def test_the_axis_of_the_joint_that_attaches_a_module_is_left_out(tmp_path: Path
     made = migrated(tmp_path, text)
     assert "extra" not in made.files["arm.robot.yaml"]
     assert [one.code.id for one in made.proved.diagnostics].count("LF8048") == 1
+
+
+def test_text_that_no_reader_uses_is_omitted_with_a_warning_at_its_element(tmp_path: Path):
+    text = """<link name="base"/>
+<xacro:macro name="wheel" params="name">
+  <link name="${name}"><visual><geometry><sphere radius="1"/>--></geometry></visual></link>
+  <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+</xacro:macro>
+<xacro:wheel name="left"/>
+<xacro:wheel name="right"/>"""
+    made = migrated(tmp_path, text)
+    assert "visual: {sphere: 1}" in made.files["wheel.robot.yaml"]
+    [warning] = [one for one in made.proved.diagnostics if one.code.id == "LF8101"]
+    assert warning.message == "text is not allowed in <geometry>; '-->' is omitted"
+    assert warning.span is not None
+    assert warning.span.line == 4
