@@ -11,6 +11,7 @@ from threading import Lock
 from typing import NamedTuple
 
 from linkforge_compile.roots import MARKERS, as_walked, exists, is_file
+from linkforge_compile.sweep.errors import SweepError
 
 SEARCH_PATHS = ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
 
@@ -32,12 +33,6 @@ class Bundle(NamedTuple):
         """Return a bundle without files, of this process's working directory and environment."""
         names = (*SEARCH_PATHS, "LINKFORGE_LIMITS")
         return cls(str(Path.cwd()), {name: os.environ[name] for name in names if name in os.environ})
-
-    @property
-    def digest(self) -> str:
-        """The digest of all that a worker makes of it."""
-        parts = (self.folder, sorted(self.environment.items()), sorted(self.files.items()), sorted(self.folders))
-        return sha256(repr(parts).encode("utf-8", "backslashreplace")).hexdigest()
 
 
 class Files(NamedTuple):
@@ -82,18 +77,30 @@ class Tree:
     def __init__(self, top: Path, bundle: Bundle, blobs: Mapping[str, bytes]) -> None:
         """Write the files; `blobs` has their contents by digest."""
         self.top, self.folder = str(top), bundle.folder
+        self._files: set[str] = set()
         # The upper end of what a spec may read here, also where the client's folders have no mark of a repository.
-        (top / ".git").mkdir(parents=True, exist_ok=True)
-        for path, digest in bundle.files.items():
-            place = Path(self.place(path))
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(blobs[digest])
-        for folder in (*bundle.folders, bundle.folder):
-            Path(self.place(folder)).mkdir(parents=True, exist_ok=True)
+        for folder in (top / ".git", Path(self.place(self.folder))):
+            folder.mkdir(parents=True, exist_ok=True)
         self._environment = {
             name: os.pathsep.join(map(self.place, value.split(os.pathsep))) if name in SEARCH_PATHS else value
             for name, value in bundle.environment.items()
         }
+        self.add(bundle, blobs)
+
+    def add(self, bundle: Bundle, blobs: Mapping[str, bytes]) -> None:
+        """Write the files that a larger bundle has in addition; SweepError for contents of another digest."""
+        with _changing_process:
+            for path in bundle.files.keys() - self._files:
+                digest = bundle.files[path]
+                content = blobs[digest]
+                if sha256(content).hexdigest() != digest:
+                    raise SweepError(f"a file arrived changed, with another digest than {digest}")
+                place = Path(self.place(path))
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_bytes(content)
+                self._files.add(path)
+            for folder in bundle.folders:
+                Path(self.place(folder)).mkdir(parents=True, exist_ok=True)
 
     def place(self, path: str) -> str:
         """Return where an absolute path of the client is here; a relative one stays, as `inside` changes the folder."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import gc
+import shutil
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from functools import lru_cache
-from hashlib import sha256
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 from linkforge_compile._version import __version__
 from linkforge_compile.roots import exists
@@ -30,12 +31,16 @@ PointsOf = Callable[[Chunk], list[Point]]
 Grow = Callable[[list[Made], Bundle], Bundle]
 """Returns the bundle with the files that compiled points lack, the same one if there are none."""
 
+Job = tuple[Request, Bundle, str, str]
+"""What is compiled, the files, the version that does, and a name of the sweep that no other one has."""
+
 
 class Cluster:
     """Sends chunks to the workers of a client, with the files that they need, and collects what they make."""
 
     def __init__(self, client: Any, request: Request, files: Files, grow: Grow) -> None:
         self._client, self._request, self._grow = client, request, grow
+        self._sweep = uuid4().hex
         self.bundle, self._blobs = files
         """The files on which all depends that was yielded so far, and what came with them."""
         self._sent: set[str] = set()
@@ -49,7 +54,8 @@ class Cluster:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Sending large graph")
             self._setups.append(self._client.submit(_as_it_is, new, pure=False))
-            self._job = self._client.submit(_as_it_is, _pickled((self._request, self.bundle, __version__)), pure=False)
+            job = _pickled((self._request, self.bundle, __version__, self._sweep))
+            self._job = self._client.submit(_as_it_is, job, pure=False)
 
     def run(self, chunks: Iterable[Chunk], points_of: PointsOf) -> Iterator[tuple[Chunk, list[Made]]]:
         """Yield each chunk with what was made of it, in the order in which they are done.
@@ -114,7 +120,7 @@ def _as_it_is(value: object) -> object:
     return value
 
 
-def _pickled(job: tuple[Request, Bundle, str]) -> bytes:
+def _pickled(job: Job) -> bytes:
     """Return a job as the scheduler passes it on, unread: it may lack the modules of the function."""
     import cloudpickle
 
@@ -128,34 +134,38 @@ def _pickled(job: tuple[Request, Bundle, str]) -> bytes:
 # In a worker
 
 _trees: dict[str, Tree] = {}
-"""The trees of this process, by the digest of their bundles."""
+"""The trees of this process, by the name of their sweep."""
+
+_TREES = 2
+"""How many sweeps have a tree, so that the disk of a cluster does not fill."""
 
 
 def _work(job: bytes, blobs: Sequence[Mapping[str, bytes]], points: list[Point]) -> list[Made]:
     """Compile points in a tree of the client's files."""
-    request, bundle, version = _loaded(job)
+    request, bundle, version, sweep = _loaded(job)
     if version != __version__:
         raise SweepError(f"a worker has linkforge-compile {__version__}, and the sweep was begun with {version}")
-    return make_all(request, points, _tree_of(bundle, blobs))
+    return make_all(request, points, _tree_of(sweep, bundle, blobs))
 
 
 @lru_cache(maxsize=2)
-def _loaded(job: bytes) -> tuple[Request, Bundle, str]:
+def _loaded(job: bytes) -> Job:
     import cloudpickle
 
-    loaded: tuple[Request, Bundle, str] = cloudpickle.loads(job)
+    loaded: Job = cloudpickle.loads(job)
     return loaded
 
 
-def _tree_of(bundle: Bundle, blobs: Sequence[Mapping[str, bytes]]) -> Tree:
-    if bundle.digest not in _trees or not exists(Path(_trees[bundle.digest].top)):
+def _tree_of(sweep: str, bundle: Bundle, blobs: Sequence[Mapping[str, bytes]]) -> Tree:
+    """Return the tree of a sweep, which has all files of a bundle."""
+    contents = {digest: content for part in blobs for digest, content in part.items()}
+    if sweep not in _trees or not exists(Path(_trees[sweep].top)):
         # As in the command itself: looking for cyclic garbage after each robot takes an eighth of the time.
         gc.set_threshold(100_000, 50)
-        contents = {digest: content for part in blobs for digest, content in part.items()}
-        for digest, content in contents.items():
-            if sha256(content).hexdigest() != digest:
-                raise SweepError(f"a file arrived changed, with another digest than {digest}")
+        while len(_trees) >= _TREES:
+            shutil.rmtree(_trees.pop(next(iter(_trees))).top, ignore_errors=True)
         # A worker removes its folder when it ends, and those of workers that were killed.
-        folder = Path(distributed().get_worker().local_directory, f"linkforge-{bundle.digest[:16]}")
-        _trees[bundle.digest] = Tree(folder, bundle, contents)
-    return _trees[bundle.digest]
+        folder = Path(distributed().get_worker().local_directory, f"linkforge-{sweep}")
+        _trees[sweep] = Tree(folder, bundle, contents)
+    _trees[sweep].add(bundle, contents)
+    return _trees[sweep]

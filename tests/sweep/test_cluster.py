@@ -141,6 +141,41 @@ def test_all_files_that_a_chunk_lacks_are_sent_at_once(tmp_path: Path, monkeypat
     assert [one.row for one in there] == [one.row for one in make_all(plan.request, points)]
 
 
+def test_a_tree_grows_by_the_files_that_it_lacks(tmp_path: Path):
+    names, files = [tmp_path / "a.yaml", tmp_path / "b.yaml"], Files(Bundle(str(tmp_path), {}), {})
+    for name in names:
+        name.write_text(f"{name.stem}: 1\n")
+    first, second = files.with_paths(names[:1]), files.with_paths(names)
+    tree = Tree(tmp_path / "tree", first.bundle, first.blobs)
+    before = Path(tree.place(str(names[0]))).stat()
+    tree.add(second.bundle, {second.bundle.files[str(names[1])]: b"b: 1\n"})  # all that it needs
+    assert Path(tree.place(str(names[0]))).stat() == before
+    assert Path(tree.place(str(names[1]))).read_bytes() == b"b: 1\n"
+
+
+def test_a_file_that_arrives_changed_is_an_error(tmp_path: Path):
+    path = tmp_path / "a.yaml"
+    path.write_text("a: 1\n")
+    bundle, blobs = Files(Bundle(str(tmp_path), {}), {}).with_paths([path])
+    with pytest.raises(SweepError, match="a file arrived changed"):
+        Tree(tmp_path / "tree", bundle, dict.fromkeys(blobs, b"a: 2\n"))
+
+
+def test_a_worker_keeps_the_trees_of_two_sweeps(client: Any, tmp_path: Path):
+    """Of three, each of which needs another file in its second chunk."""
+
+    def count_trees(dask_worker: Any) -> int:
+        return len(list(Path(dask_worker.local_directory).glob("linkforge-*")))
+
+    spec = write_family(tmp_path)
+    plan = plan_of(
+        Request(str(spec), "arm", packages={"tools": str(tmp_path / "tools")}), Choice(("tool=hand,hook",), chunk=1)
+    )
+    for _ in range(3):
+        assert [one.row["errors"] for _, made in results(plan, client) for one in made] == [0, 0]
+    assert max(client.run(count_trees).values()) <= 2
+
+
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_an_example_is_the_same_in_a_tree(example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Its modules, data, meshes and vendors' files reach the tree, and nothing names the tree."""
