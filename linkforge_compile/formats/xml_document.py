@@ -15,7 +15,7 @@ from typing import TypeAlias
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.formats.source_map import Mapped, Origins, Segment, SourceMap, split_origins
 from linkforge_compile.formats.xml_text import KEEPS_SPACE, RESERVED, escaped, is_xml_blank
-from linkforge_compile.source.xml_tree import ATTRIBUTE
+from linkforge_compile.source.xml_tree import ATTRIBUTE, first_tag
 
 INDENT = "  "
 
@@ -25,7 +25,6 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _BREAK_IN_TAG = re.compile(r"""(?P<value>"[^"]*"|'[^']*')|\s*\n\s*""")
-_TAG = re.compile(r"<([^\s/>]*)")
 
 _INSIDE, _ATTRIBUTES = f"{RESERVED}inside", f"{RESERVED}attributes"
 
@@ -55,8 +54,7 @@ class XmlNode:
 
     @property
     def tag(self) -> str:
-        found = _TAG.match(self.start)
-        return found[1] if found else ""
+        return first_tag(self.start)
 
     @property
     def elements(self) -> list[XmlNode]:

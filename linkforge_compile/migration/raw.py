@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 
 from linkforge_compile.migration.groups import MARK
+from linkforge_compile.source.xml_tree import first_tag
 from linkforge_compile.syntax import YamlList, YamlMap, YamlNode, YamlScalar
 
 
@@ -13,11 +14,7 @@ def raw_elements(tree: YamlMap, is_wanted: Callable[[str], bool]) -> list[YamlSc
     """Return the raw XML of the robot or a part of it whose tags are wanted."""
     extra = tree.get("extra")
     items = extra.items if isinstance(extra, YamlList) else () if extra is None else (extra,)
-    return [
-        one
-        for one in items
-        if isinstance(one, YamlScalar) and is_wanted(re.split(r"[\s/>]", one.text[1:], maxsplit=1)[0])
-    ]
+    return [one for one in items if isinstance(one, YamlScalar) and is_wanted(first_tag(one.text))]
 
 
 def raw_element(tree: YamlMap, key: tuple[str, str]) -> YamlScalar | None:
@@ -59,8 +56,7 @@ def raw_in(node: YamlNode) -> Iterator[str]:
 
 def _tags_in(extra: YamlNode) -> Iterator[str]:
     if isinstance(extra, YamlScalar):
-        found = re.search(r"<([\w:.-]+)", extra.text)
-        yield found[1] if found else ""
+        yield first_tag(extra.text)
     elif isinstance(extra, YamlList):
         for item in extra:
             yield from _tags_in(item)

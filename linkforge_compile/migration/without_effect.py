@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS
+from linkforge_compile.source.xml_tree import first_tag
 
 if TYPE_CHECKING:
     from linkforge_compile.core import Robot
@@ -19,8 +19,6 @@ WITHOUT_EFFECT: Mapping[str, frozenset[str]] = {
 }
 """The tags of elements in a joint that have no effect, by its type."""
 
-_TAG = re.compile(r"<([\w:.-]+)")
-
 
 def leave_out(robot: Robot) -> None:
     """Remove these elements, which are raw XML there, from a robot."""
@@ -29,5 +27,5 @@ def leave_out(robot: Robot) -> None:
 
 def _without(joint: Joint) -> Joint:
     tags = WITHOUT_EFFECT.get(str(joint.type), frozenset())
-    kept = [text for text in joint.extra_elements if not ((found := _TAG.match(text)) and found[1] in tags)]
+    kept = [text for text in joint.extra_elements if first_tag(text) not in tags]
     return joint if len(kept) == len(joint.extra_elements) else replace(joint, extra_elements=kept)

@@ -225,6 +225,7 @@ MARKUP = re.compile(
 )
 """Matches each piece of a document; the group is its kind, `rest` for all after something that is not closed."""
 
+_TAG = re.compile(r"<([^\s/>!?]+)")
 ATTRIBUTE = re.compile(r"""(?<=[\s"'])(?P<name>[^\s=/<>"']+)\s*=\s*(?:"(?P<double>[^"]*)"|'(?P<single>[^']*)')""")
 
 # lxml accepts these in names, the fourth edition of XML 1.0 does not, so no name of a document has them.
@@ -305,3 +306,9 @@ class Places:
 def as_written(name: str) -> str:
     """Return a name of a text without namespaces as it was written."""
     return name if name.isascii() else name.translate(_SHOWN)
+
+
+def first_tag(xml: str) -> str:
+    """Return the tag of the first element in XML; "" if there is none."""
+    found = _TAG.search(xml)
+    return found[1] if found else ""
