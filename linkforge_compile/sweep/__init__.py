@@ -114,8 +114,8 @@ def run(
     names, table = tuple(variants), None if values is None else Path(values)
     request = _request_of(spec, parameters or {}, names, packages or {}, options or {})
     request = request._replace(formats=tuple(formats), allow_outside=allow_outside, function=function)
-    sets = tuple(_set_text(name, value) for name, value in dict(grid or {}).items())
-    choice = Choice(sets, names, table, where, sample, seed, max_points, chunk, words=Wording(is_python=True))
+    words = Wording(is_python=True, has_folder=output is not None)
+    choice = Choice(_set_texts(grid or {}), names, table, where, sample, seed, max_points, chunk, words)
     place = Place(jobs, scheduler, {name: str(path) for name, path in (security or {}).items()})
     packing = "none" if output is None else pack
     plan = plan_of(request._replace(has_files=packing != "none"), choice)
@@ -158,6 +158,11 @@ def _table_of(plan: Plan, packing: str, output: str | Path | None, place: Place,
         )
         execute(plan, store, place, packing, resume=resume)
         return store.table()
+
+
+def _set_texts(grid: Mapping[str, object]) -> tuple[str, ...]:
+    """Return what a grid, or its pairs, varies as `--set` has it."""
+    return tuple(_set_text(name, value) for name, value in dict(grid).items())
 
 
 def _set_text(name: str, value: object) -> str:

@@ -26,10 +26,10 @@ def parquet() -> Any:
     return pyarrow.parquet
 
 
-def distributed() -> Any:
-    """Return the module distributed; SweepError if it is not installed."""
+def distributed(instead: str = "") -> Any:
+    """Return the module distributed; SweepError, with what to do instead, if it is not installed."""
     try:
         import distributed as module
     except ImportError as error:
-        raise SweepError(f"{_MISSING.format(name='distributed')}, or run in one process with --jobs 1") from error
+        raise SweepError(f"{_MISSING.format(name='distributed')}{instead}") from error
     return module

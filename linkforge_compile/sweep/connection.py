@@ -13,6 +13,7 @@ from typing import Any
 from linkforge_compile.sweep.arrow import distributed
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.place import Place
+from linkforge_compile.sweep.wording import Wording
 
 RETRIES = 10
 """How many workers may be lost with one chunk before it is given up."""
@@ -40,7 +41,7 @@ _PACKAGES = ("linkforge_compile", "cloudpickle", "distributed")
 
 
 @contextmanager
-def cluster(place: Place) -> Iterator[Any]:
+def cluster(place: Place, words: Wording) -> Iterator[Any]:
     """Connect to a scheduler, or start one with processes of one thread each on this machine.
 
     Raises:
@@ -48,22 +49,22 @@ def cluster(place: Place) -> Iterator[Any]:
             be started.
 
     """
-    distributed()
+    distributed(f", or use one process: {words.one_process}")
     import dask
     from distributed.utils import silence_logging_cmgr as silent
 
     with dask.config.set(_CONFIGURATION):
         if place.scheduler is None:
-            with _local(place.jobs) as client:
+            with _local(place.jobs, words) as client:
                 yield client
         else:
-            with silent(logging.CRITICAL), _connected(place.scheduler, place.security) as client:
+            with silent(logging.CRITICAL), _connected(place.scheduler, place.security, words) as client:
                 require_same_versions(client)
                 yield client
 
 
 @contextmanager
-def _local(jobs: int) -> Iterator[Any]:
+def _local(jobs: int, words: Wording) -> Iterator[Any]:
     library = distributed()
     try:
         # Only this user can connect, by a certificate as old as the cluster, and only from this machine.
@@ -77,16 +78,15 @@ def _local(jobs: int) -> Iterator[Any]:
             silence_logs=logging.CRITICAL,
         )
     except RuntimeError as error:
-        raise SweepError(
-            f"no process can be started: {error} A script must call run() below `if __name__ == '__main__':`; "
-            "with one job no other process is needed"
-        ) from error
+        way = "a script must call run() below `if __name__ == '__main__':`, or use " if words.is_python else "use "
+        text = f"no process can be started: {str(error).rstrip('.')}; {way}{words.one_process}"
+        raise SweepError(text) from None  # Dask's own tracebacks are long, and each process prints them
     with local, library.Client(local, set_as_default=False) as client:
         yield client
 
 
-def _connected(address: str, security: Mapping[str, str]) -> Any:
-    library, tls = distributed(), _security(address, security)
+def _connected(address: str, security: Mapping[str, str], words: Wording) -> Any:
+    library, tls = distributed(), _security(address, security, words)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", library.versions.VersionMismatchWarning)  # require_same_versions checks
@@ -101,7 +101,7 @@ def _connected(address: str, security: Mapping[str, str]) -> Any:
     return client
 
 
-def _security(address: str, files: Mapping[str, str]) -> Any:
+def _security(address: str, files: Mapping[str, str], words: Wording) -> Any:
     """Return the settings of TLS: the files, or else those of Dask's own configuration."""
     is_encrypted = address.startswith("tls://")
     if files and not is_encrypted:
@@ -114,8 +114,7 @@ def _security(address: str, files: Mapping[str, str]) -> Any:
     security = distributed().Security(require_encryption=is_encrypted or None, **files)
     if is_encrypted and not (security.tls_ca_file and security.tls_client_cert and security.tls_client_key):
         raise SweepError(
-            f"'{address}' needs the certificate of your authority, your own, and your key: "
-            "--tls-ca FILE --tls-cert FILE --tls-key FILE, or security={…} in Python"
+            f"'{address}' needs the certificate of your authority, your own, and your key: {words.certificates}"
         )
     return security
 

@@ -20,6 +20,7 @@ from linkforge_compile.sweep.connection import RETRIES, require_same_versions
 from linkforge_compile.sweep.errors import SweepError
 from linkforge_compile.sweep.points import Point
 from linkforge_compile.sweep.store import Chunk
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import Made, Request, make_all
 
 _IN_FLIGHT = 3
@@ -38,8 +39,8 @@ Job = tuple[Request, Bundle, str, str]
 class Cluster:
     """Sends chunks to the workers of a client, with the files that they need, and collects what they make."""
 
-    def __init__(self, client: Any, request: Request, files: Files, grow: Grow) -> None:
-        self._client, self._request, self._grow = client, request, grow
+    def __init__(self, client: Any, request: Request, files: Files, grow: Grow, words: Wording) -> None:
+        self._client, self._request, self._grow, self._words = client, request, grow, words
         self._sweep = uuid4().hex
         self.bundle, self._blobs = files
         """The files on which all depends that was yielded so far, and what came with them."""
@@ -95,7 +96,7 @@ class Cluster:
             lost = error.allowed_failures + 1
             raise SweepError(f"{lost} workers were lost with the same robots; is there enough memory?") from error
         except CancelledError as error:
-            raise SweepError("the connection to the scheduler was lost; --resume continues") from error
+            raise SweepError(f"the connection to the scheduler was lost; {self._words.continuing}") from error
         except SweepError:
             raise
         except Exception as error:

@@ -51,7 +51,7 @@ def execute(
 ) -> Summary:
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
     files, words = collect_files(plan), plan.choice.words
-    later = f"once it can be written, {words.resuming} continues"
+    later = f"once it can be written, {words.continuing}"
     with _write_errors(store.folder, "choose another folder"):
         done = store.begin(plan.manifest(files.bundle, packing), words, resume=resume)
     summary = Summary(plan.size)
@@ -88,8 +88,9 @@ def _write_errors(folder: Path, way_out: str) -> Iterator[None]:
 def _require_unchanged(bundle: Bundle, words: Wording) -> None:
     """Refuse robots that may be of another text than those in the folder, which then are all of one."""
     if changed := changed_files(bundle.files):
-        ways = f"restore it, and {words.resuming} continues, or remove the folder and start again"
-        raise SweepError(f"'{changed[0]}' changed while the sweep ran; {ways}")
+        ways = f"restore it, and {words.continuing}, or remove the folder and start again"
+        way = ways if words.has_folder else words.continuing
+        raise SweepError(f"'{changed[0]}' changed while the sweep ran; {way}")
 
 
 def collect_files(plan: Plan) -> Files:
@@ -115,14 +116,14 @@ def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Res
             files = files.with_paths({path for one in made for path in one.read})
             yield chunk, made, files.bundle
         return
-    with cluster(place._replace(jobs=min(place.jobs, len(chunks)))) as client:
+    with cluster(place._replace(jobs=min(place.jobs, len(chunks))), plan.choice.words) as client:
         yield from results_of(plan, files, client, chunks)
 
 
 def results_of(plan: Plan, files: Files, client: Any, chunks: Iterable[Chunk]) -> Results:
     """Yield what the workers of a client make of chunks."""
     judge = Judge(plan, files.blobs)
-    work = Cluster(client, plan.request, files, judge.grow)
+    work = Cluster(client, plan.request, files, judge.grow, plan.choice.words)
     for chunk, made in work.run(chunks, plan.points_of):
         yield chunk, [judge.final(one) for one in made], work.bundle
 

@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 
 class Wording(NamedTuple):
-    """The names that the user knows."""
+    """The names that the user knows. Without a folder, which the command always has, no sweep is continued."""
 
     is_python: bool = False
+    has_folder: bool = True
 
     def option(self, name: str, value: object = "") -> str:
         """Return `--max-points 9` or `max_points=9`; without a value the name alone."""
@@ -20,6 +21,25 @@ class Wording(NamedTuple):
     def resuming(self) -> str:
         """What continues a sweep."""
         return "resume=True" if self.is_python else "--resume"
+
+    @property
+    def continuing(self) -> str:
+        """What to do once a sweep was stopped."""
+        if self.has_folder:
+            return f"{self.resuming} continues"
+        return "start again; with output=FOLDER, what is done would remain"
+
+    @property
+    def one_process(self) -> str:
+        """What starts no other process."""
+        return "jobs=1" if self.is_python else "--jobs 1"
+
+    @property
+    def certificates(self) -> str:
+        """What names the files of TLS."""
+        if self.is_python:
+            return "security={'tls_ca_file': FILE, 'tls_client_cert': FILE, 'tls_client_key': FILE}"
+        return "--tls-ca FILE --tls-cert FILE --tls-key FILE"
 
     @property
     def forms(self) -> str:

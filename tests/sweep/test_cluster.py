@@ -22,6 +22,7 @@ from linkforge_compile.sweep.plan import Choice, Plan, plan_of
 from linkforge_compile.sweep.points import Point
 from linkforge_compile.sweep.session import Judge, collect_files, results_of, with_files_of
 from linkforge_compile.sweep.store import Chunk, chunks_of
+from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import Made, Request, make, make_all
 from tests.conftest import ROOT
 from tests.meshes import block
@@ -33,7 +34,7 @@ EXAMPLES = sorted((ROOT / "examples").rglob("*.robot.yaml"))
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
     """Two processes of Dask."""
-    with cluster(Place(2)) as connected:
+    with cluster(Place(2), Wording()) as connected:
         yield connected
 
 
@@ -208,7 +209,7 @@ def test_a_function_runs_on_workers(client: Any, tmp_path: Path, monkeypatch: py
 
     spec = write_arm(tmp_path)
     here = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score)
-    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(session, "cluster", lambda *_: nullcontext(client))
     there = run(spec, {"reach": [0.5, 1.0], "fingers": "2,3"}, score, jobs=2)
     assert there.equals(here)
     assert here["double"].to_pylist() == [1.0, None, 2.0, None]
@@ -254,14 +255,14 @@ def test_a_function_whose_module_a_worker_lacks_is_an_error(
     (tmp_path / "legs_of_mine.py").write_text("def score(robot, values):\n    return 1\n")
     monkeypatch.syspath_prepend(tmp_path)
     module = importlib.import_module("legs_of_mine")
-    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(session, "cluster", lambda *_: nullcontext(client))
     with pytest.raises(SweepError, match="a worker lacks what your function needs: No module named 'legs_of_mine'"):
         run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, module.score, jobs=2)
 
 
 def test_a_worker_that_comes_later_has_the_same_version(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(scheduler, "__version__", "0.0.1")
-    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(session, "cluster", lambda *_: nullcontext(client))
     message = f"a worker has linkforge-compile {__version__}, and the sweep was begun with 0.0.1"
     with pytest.raises(SweepError, match=re.escape(message)):
         run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, jobs=2)
@@ -269,15 +270,18 @@ def test_a_worker_that_comes_later_has_the_same_version(client: Any, tmp_path: P
 
 def test_a_lost_scheduler_is_an_error(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """As Dask reports it: each task is cancelled."""
-    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(session, "cluster", lambda *_: nullcontext(client))
     monkeypatch.setattr(distributed.Future, "result", lambda self: self.cancel() or self.client.sync(self._result))
-    with pytest.raises(SweepError, match="the connection to the scheduler was lost; --resume continues"):
-        run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, jobs=2)
+    spec, lost = write_arm(tmp_path), "the connection to the scheduler was lost"
+    with pytest.raises(SweepError, match=f"{lost}; resume=True continues"):
+        run(spec, {"reach": [0.5, 1.0]}, jobs=2, output=tmp_path / "out")
+    with pytest.raises(SweepError, match=f"{lost}; start again; with output=FOLDER"):
+        run(spec, {"reach": [0.5, 1.0]}, jobs=2)
 
 
 def test_a_function_that_cannot_be_sent_is_an_error(client: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     lock = Lock()
-    monkeypatch.setattr(session, "cluster", lambda _place: nullcontext(client))
+    monkeypatch.setattr(session, "cluster", lambda *_: nullcontext(client))
     with pytest.raises(SweepError, match=r"the function cannot be sent to other processes: .*lock"):
         run(write_arm(tmp_path), {"reach": [0.5, 1.0]}, lambda _robot, _values: lock.locked(), jobs=2)
 
@@ -292,7 +296,7 @@ def test_a_function_that_cannot_be_sent_is_an_error(client: Any, tmp_path: Path,
     ],
 )
 def test_a_scheduler_needs_an_address_and_its_certificates(address: str, files: dict[str, str], message: str):
-    with pytest.raises(SweepError, match=re.escape(message)), cluster(Place(1, address, files)):
+    with pytest.raises(SweepError, match=re.escape(message)), cluster(Place(1, address, files), Wording()):
         pass
 
 

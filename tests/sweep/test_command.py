@@ -446,6 +446,17 @@ def test_a_folder_that_cannot_be_written_is_an_error(folder: Path, output: str, 
     assert (done.returncode, done.stderr) == (2, f"linkforge sweep: {message}\n")
 
 
+def test_a_file_that_changes_without_a_folder_for_robots(folder: Path):
+    """Nothing is kept, so nothing can be resumed."""
+    spec = folder / "arm.robot.yaml"
+
+    def edit(_robot: object, _values: object) -> None:
+        spec.write_text(ARM.replace("mass: 3 kg", "mass: 9 kg"))
+
+    with pytest.raises(SweepError, match="changed while the sweep ran; start again; with output=FOLDER"):
+        run(spec, {"reach": [0.5, 1.0]}, edit)
+
+
 def test_a_full_disk_is_an_error(folder: Path, monkeypatch: pytest.MonkeyPatch):
     def full(self: Store, chunk: Chunk, made: object) -> None:
         raise OSError(ENOSPC, os.strerror(ENOSPC))
