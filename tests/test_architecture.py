@@ -71,7 +71,7 @@ MAY_IMPORT = {
     ),
     "sweep": (
         "source diagnostics units limits syntax expressions core listing load expand formats shape_files overview "
-        "banner roots paths analysis compilation file_names atomic_file _version"
+        "banner roots paths analysis compilation file_watcher file_names atomic_file _version"
     ),
     "cli": (
         "banner source diagnostics fixing limits roots paths core checks schema importers load expand listing analysis "

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.sweep.bundle import Bundle, Files, changed_files
 from linkforge_compile.sweep.connection import cluster
 from linkforge_compile.sweep.errors import SweepError
@@ -50,7 +51,7 @@ def execute(
     plan: Plan, store: Store, place: Place, packing: str, *, resume: bool, progress: Progress = lambda _done, _bad: None
 ) -> Summary:
     """Compile all robots of a plan that are not done, write the table, and return the summary."""
-    files, words = collect_files(plan), plan.choice.words
+    files, words, watcher = collect_files(plan), plan.choice.words, FileWatcher()
     later = f"once it can be written, {words.continuing}"
     with _write_errors(store.folder, "choose another folder"):
         done = store.begin(plan.manifest(files.bundle, packing), words, resume=resume)
@@ -61,7 +62,7 @@ def execute(
         progress(count, failed)
         for chunk, made, bundle in _results(plan, files, place, todo):
             with _write_errors(store.folder, later):
-                _require_unchanged(bundle, words)
+                _require_unchanged(bundle, watcher, words)
                 if bundle is not files.bundle:
                     files = files._replace(bundle=bundle)
                     store.update(plan.manifest(bundle, packing))
@@ -85,9 +86,13 @@ def _write_errors(folder: Path, way_out: str) -> Iterator[None]:
         raise SweepError(f"cannot write to '{folder}': {error.strerror or error}; {way_out}") from error
 
 
-def _require_unchanged(bundle: Bundle, words: Wording) -> None:
-    """Refuse robots that may be of another text than those in the folder, which then are all of one."""
-    if changed := changed_files(bundle.files):
+def _require_unchanged(bundle: Bundle, watcher: FileWatcher, words: Wording) -> None:
+    """Refuse robots that may be of another text than those in the folder, which then are all of one.
+
+    Files are read once, and again if their time or size changed.
+    """
+    watcher.track(map(Path, bundle.files), began=0)  # so that it reports each file at first
+    if changed := changed_files({str(path): bundle.files[str(path)] for path in watcher.poll()}):
         ways = f"restore it, and {words.continuing}, or remove the folder and start again"
         way = ways if words.has_folder else words.continuing
         raise SweepError(f"'{changed[0]}' changed while the sweep ran; {way}")

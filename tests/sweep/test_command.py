@@ -16,6 +16,7 @@ import pytest
 
 from linkforge_compile import compile_file, render_urdf
 from linkforge_compile.sweep import SweepError, run
+from linkforge_compile.sweep.bundle import changed_files
 from linkforge_compile.sweep.place import Place
 from linkforge_compile.sweep.plan import Plan
 from linkforge_compile.sweep.session import Summary
@@ -444,6 +445,26 @@ def test_a_folder_that_cannot_be_written_is_an_error(folder: Path, output: str, 
     (folder / "file").write_text("")
     done = linkforge("sweep", "arm.robot.yaml", "-o", output, "--jobs", "1", "--set", "reach=1,2", cwd=folder)
     assert (done.returncode, done.stderr) == (2, f"linkforge sweep: {message}\n")
+
+
+def test_a_file_is_read_again_only_if_its_time_or_size_changed(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    """A touched file has no other text, and an edit of the same length is found."""
+    spec, output, read = folder / "arm.robot.yaml", folder / "out", []
+    edits = {0.6: ARM, 0.8: ARM.replace("mass: 3 kg", "mass: 9 kg")}
+
+    def edit(_robot: object, values: Mapping[str, object]) -> None:
+        if text := edits.get(values["reach"]):
+            spec.write_text(text)
+
+    def counted(files: Mapping[str, str]) -> list[str]:
+        read.append(len(files))
+        return changed_files(files)
+
+    monkeypatch.setattr("linkforge_compile.sweep.session.changed_files", counted)
+    with pytest.raises(SweepError, match="changed while the sweep ran"):
+        run(spec, {"reach": [0.4, 0.5, 0.6, 0.7, 0.8, 0.9]}, edit, output=output)
+    assert read == [1, 0, 1, 0, 1]
+    assert [path.name for path in sorted((output / "robots").iterdir())] == [f"{index:06}" for index in range(4)]
 
 
 def test_a_file_that_changes_without_a_folder_for_robots(folder: Path):
