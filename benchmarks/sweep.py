@@ -1,7 +1,7 @@
 """Measure `linkforge sweep`: robots a second on one core, two cores against one, and memory.
 
     python benchmarks/sweep.py
-    python benchmarks/sweep.py --environment /tmp/measured --only core,cores,memory --robots 400
+    python benchmarks/sweep.py --environment /tmp/measured --only core,modules,cores,memory --robots 400
 
 README.md beside this file explains the rows. The environment is that of compare.py with the extra `sweep`.
 """
@@ -27,6 +27,10 @@ ROBOTS = Path(__file__).resolve().parent / "robots"
 STIFFNESS = "k_position: 20"
 """What the sweep of the arm varies, as its imported spec has it."""
 
+MANIPULATOR = Path(__file__).resolve().parents[1] / "examples/09_mobile_manipulator/mobile_manipulator.robot.yaml"
+TORSO = "torso_height=0.5m:0.9m"
+"""What the sweep of the manipulator varies: its own torso, the place of its arms, and its sensors."""
+
 SMALL = """\
 linkforge: 1
 name: small
@@ -50,7 +54,12 @@ def main() -> None:
         print(
             f"{os.cpu_count()} cores; load of the last 1, 5 and 15 minutes: {os.getloadavg()}; {options.rounds} rounds"
         )
-        comparisons = {"core": compare_on_one_core, "cores": compare_cores, "memory": compare_memory}
+        comparisons = {
+            "core": compare_on_one_core,
+            "modules": compare_modules,
+            "cores": compare_cores,
+            "memory": compare_memory,
+        }
         for name in options.only.split(","):
             for line in comparisons[name](environment, folder, options):
                 print(line, flush=True)
@@ -61,7 +70,9 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=5, help="measured runs of each side, in turns (5)")
     parser.add_argument("--robots", type=int, default=200, help="robots of a run (200)")
     parser.add_argument("--counts", default="10000,100000", help="robots for the peak memory (10000,100000)")
-    parser.add_argument("--only", default="core,cores,memory", help="some of core, cores, memory (all)")
+    parser.add_argument(
+        "--only", default="core,modules,cores,memory", help="some of core, modules, cores, memory (all)"
+    )
     parser.add_argument("--environment", type=Path, metavar="FOLDER", help="use or make an environment, and keep it")
     return parser.parse_args()
 
@@ -85,11 +96,28 @@ def compare_on_one_core(environment: Environment, folder: Path, options: argpars
     urdf, spec = make_arm(environment, folder)
     count, xacro = str(options.robots), ROBOTS / "arm/arm.urdf.xacro"
     sides = {
-        "sweep": ("sweep", str(spec), "stiffness", count),
-        "sweep, files read anew": ("sweep-uncached", str(spec), "stiffness", count),
+        "sweep": ("sweep", str(spec), "stiffness=10:30", count),
+        "sweep, files read anew": ("sweep-files-anew", str(spec), "stiffness=10:30", count),
         "xacro": ("xacro-loop", str(xacro), "safety_stiffness", count),
         "linkforge-core": ("core-loop", str(urdf), count),
     }
+    yield from compare_sides("core", sides, environment, options)
+
+
+def compare_modules(environment: Environment, _folder: Path, options: argparse.Namespace) -> Iterator[str]:
+    """Yield robots a second of a robot of eight modules, of which no swept parameter reaches five."""
+    count = str(options.robots)
+    sides = {
+        "sweep": ("sweep", str(MANIPULATOR), TORSO, count),
+        "sweep, modules made anew": ("sweep-modules-anew", str(MANIPULATOR), TORSO, count),
+    }
+    yield from compare_sides("modules", sides, environment, options)
+
+
+def compare_sides(
+    row: str, sides: dict[str, tuple[str, ...]], environment: Environment, options: argparse.Namespace
+) -> Iterator[str]:
+    """Run the actions of worker.py in turns, and yield the robots a second of each, and its ratio to the first."""
     times: dict[str, list[float]] = {name: [] for name in sides}
     for number in range(options.rounds + 1):
         for name, action in sides.items():
@@ -99,9 +127,8 @@ def compare_on_one_core(environment: Environment, folder: Path, options: argpars
                 times[name].append(sample.processor)
     for name, seconds in times.items():
         ratio = median(times["sweep"]) / median(seconds)
-        rate = options.robots / median(seconds)
-        cost = f"{rate:8.1f} robots a second of processor time"
-        yield f"core    {name:<24} {cost}; a sweep takes {ratio:.2f} times that"
+        cost = f"{options.robots / median(seconds):8.1f} robots a second of processor time"
+        yield f"{row:<7} {name:<24} {cost}; a sweep takes {ratio:.2f} times that"
 
 
 class Run(NamedTuple):

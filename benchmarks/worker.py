@@ -66,24 +66,28 @@ def prepare_rewrite(urdf: str) -> Callable[[], Turn]:
     return lambda: turn
 
 
-def prepare_sweep(spec: str, parameter: str, count: str, cache: str = "kept") -> Callable[[], Turn]:
-    """Compile and render a spec with so many values of a parameter, and make the rows of the table."""
+def prepare_sweep(spec: str, values: str, count: str, anew: str = "") -> Callable[[], Turn]:
+    """Compile and render a spec with so many values, `PARAMETER=FROM:TO`, and make the rows of the table.
+
+    `anew` names what each robot makes anew: "files" or "modules".
+    """
     from linkforge_compile.load import spec_tree
     from linkforge_compile.sweep.plan import Choice, plan_of
     from linkforge_compile.sweep.store import Chunk
     from linkforge_compile.sweep.work import Request, make
 
-    plan = plan_of(Request(spec, "robot"), Choice((f"{parameter}=10:30:{count}",)))
+    plan = plan_of(Request(spec, "robot"), Choice((f"{values}:{count}",)))
     points = plan.points_of(Chunk(0, plan.size))
+    shared = None if anew else plan.request.shared_modules()
 
     def turn() -> None:
         for point in points:
-            if cache == "dropped":
+            if anew == "files":
                 spec_tree._cache = spec_tree._TreeCache()
-            if make(plan.request, point).row["errors"]:
+            if make(plan.request, point, shared=shared).row["errors"]:
                 sys.exit(f"{spec} has errors")
 
-    make(plan.request, points[0])
+    make(plan.request, points[0], shared=shared)
     return lambda: turn
 
 
@@ -156,7 +160,8 @@ ACTIONS: dict[str, Callable[..., Callable[[], Turn]]] = {
     "rewrite-urdf": prepare_rewrite,
     "merge": prepare_merge,
     "sweep": prepare_sweep,
-    "sweep-uncached": partial(prepare_sweep, cache="dropped"),
+    "sweep-files-anew": partial(prepare_sweep, anew="files"),
+    "sweep-modules-anew": partial(prepare_sweep, anew="modules"),
     "xacro-loop": prepare_xacro_loop,
     "core-loop": prepare_core_loop,
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -116,6 +117,15 @@ class Budget:
         """Return the rest of a limit, here and in the outer budget; below 0 once it is exceeded."""
         own = self._left[limit]
         return own if self.within is None else min(own, self.within.left(limit))
+
+    @property
+    def left_of_all(self) -> dict[Limit, int]:
+        """The rest of every limit, without regard to the outer budget."""
+        return dict(self._left)
+
+    def allows(self, amounts: Mapping[Limit, int]) -> bool:
+        """Whether so much of some limits may still be spent."""
+        return all(self.left(limit) >= amount for limit, amount in amounts.items())
 
     @property
     def is_spent(self) -> bool:

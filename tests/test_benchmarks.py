@@ -59,8 +59,7 @@ def test_each_action_runs_more_than_once(action: str, tmp_path: Path):
     link = "{visual: {sphere: 1}, inertial: {mass: $(n)}}"
     swept.write_text(f"linkforge: 1\nname: a\nparameters: {{n: 1}}\nlinks: {{a: {link}}}\n", "utf-8")
     arguments = {
-        "sweep": (str(swept), "n", "2"),
-        "sweep-uncached": (str(swept), "n", "2"),
+        **dict.fromkeys(("sweep", "sweep-files-anew", "sweep-modules-anew"), (str(swept), "n=10:30", "2")),
         "xacro-loop": (str(XACRO), "safety_stiffness", "2"),
         "core-loop": (str(urdf), "2"),
         "xacro": (str(XACRO),),

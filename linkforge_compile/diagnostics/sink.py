@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections import defaultdict
 from collections.abc import Collection, Hashable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -60,9 +61,22 @@ class Diagnostics:
         # Of the warnings and notes that are kept: a group, or the number of a single one.
         self._groups: set[Hashable] = set()
         self._left_out = 0
+        self._recordings: list[list[Diagnostic]] = []
+
+    @contextmanager
+    def recording(self) -> Iterator[list[Diagnostic]]:
+        """Collect everything that is reported meanwhile, kept or not."""
+        recording: list[Diagnostic] = []
+        self._recordings.append(recording)
+        try:
+            yield recording
+        finally:
+            self._recordings.pop()
 
     def report(self, diagnostic: Diagnostic) -> None:
         """Keep a diagnostic, or only count it if there are many; BeyondLimitError if there are too many."""
+        for recording in self._recordings:
+            recording.append(diagnostic)
         is_error = diagnostic.severity is Severity.ERROR
         self._errors_reported += is_error
         is_kept = self._is_kept(diagnostic)

@@ -27,6 +27,7 @@ from linkforge_compile.expand.instance import NameReference
 from linkforge_compile.expand.modules import ModuleEntry
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
+from linkforge_compile.expand.shared_modules import Sharing
 from linkforge_compile.expand.values import Setting, plain_value
 from linkforge_compile.expressions import (
     FAULT,
@@ -64,17 +65,22 @@ class CompileState:
     expressions: Expressions
     unset: Unset = Unset.ERROR
     variant: str | None = None
+    sharing: Sharing | None = None
 
 
 @dataclass(frozen=True)
 class Use:
-    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
+    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself.
+
+    `varied` are the parameters of the file whose values may be others in the next compile; None if anything may be.
+    """
 
     spec: SpecFile
     bound: BoundArguments
     entry: ModuleEntry | None = None
     outer: Use | None = None
     outer_writers: Writers = field(default_factory=dict)
+    varied: frozenset[str] | None = None
 
     @property
     def chain(self) -> tuple[Use, ...]:

@@ -3,6 +3,7 @@
 What each module knows; it imports only those above it:
 
     spec_tree         the text of a spec -> its validated tree, with the files of `include` merged
+    files_read        the files that a compile has read so far, and what became of each
     loader            the files of one compile, each read once -> SpecFile
     locations         what a path in a spec names -> a file; a path relative to one file -> relative to another
     xacro_library     a xacro file and what it includes -> the arguments and macros that they declare, by reading alone

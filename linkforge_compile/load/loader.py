@@ -14,9 +14,10 @@ from linkforge_compile.diagnostics import Diagnostic, Diagnostics, Note, notes_o
 from linkforge_compile.diagnostics.codes.modules import NO_SUCH_FILE, OUTSIDE_ROOTS, UNREADABLE_FILE
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.limits import MAX_FILE_BYTES, Budget, Limit
-from linkforge_compile.load.spec_tree import ComposedFile, cached_source, compose, follow_includes, read_tree
+from linkforge_compile.load.files_read import FilesRead
+from linkforge_compile.load.spec_tree import ComposedFile, Place, cached_source, compose, follow_includes, read_tree
 from linkforge_compile.paths import NearbyPackages, Package, as_typed, names_in, searched_note
-from linkforge_compile.roots import ANYWHERE, Roots, identity
+from linkforge_compile.roots import ANYWHERE, Roots, exists, identity
 from linkforge_compile.source import SourceFile, Span, place_of_byte
 from linkforge_compile.source.characters import UnreadableError, begins_xml
 from linkforge_compile.source.provenance import uses_in
@@ -81,13 +82,15 @@ class Loader:
         roots: Roots = ANYWHERE,
         budget: Budget | None = None,
         buffers: Mapping[str, str] = MappingProxyType({}),
+        known_sources: dict[Place, SourceFile] | None = None,
     ) -> None:
         """Create a loader without files.
 
         `packages` come before every other place where `package://` is looked for. Files that a spec names must lie
         within the `roots`, files that the user names may lie anywhere. `check_spec` finds the errors of a vendor's
         robot; the pipeline sets it, because later stages do the work. Without `runs_xacro` no xacro file is expanded.
-        `buffers` are texts that are read instead of files, by real path.
+        `buffers` are texts that are read instead of files, by real path. `known_sources` are those of an earlier
+        compile, which are used again for the same text at the same place, and receive those of this one.
         """
         self.packages = dict(packages or {})
         self.roots = roots
@@ -97,28 +100,29 @@ class Loader:
         self.nearby_packages: NearbyPackages = {}
         self.budget = budget or Budget()
         self._check_budget = Budget(times=_CHECK_BUDGETS, within=self.budget.within)
-        self._sources: list[SourceFile] = []
-        self._specs: dict[str, ComposedFile | None] = {}  # by real path
-        self._data: dict[str, YamlNode | None] = {}  # by real path
-        self._xml: dict[str, SourceFile] = {}  # by real path
-        self._read_by_xacro: list[Path] = []
-        self._unread: list[Path] = []
+        self._known_sources = known_sources
+        self.files_read = FilesRead()
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:
         """The texts in the order read; a file that is included twice is there twice."""
-        return tuple(self._sources)
+        return tuple(self.files_read.sources)
 
     @property
     def files(self) -> tuple[Path, ...]:
         """The files in the order read, as the user would type them."""
-        sources = (source.path for source in self._sources if source.path)
-        return tuple(dict.fromkeys((*sources, *self._read_by_xacro)))
+        sources = (source.path for source in self.files_read.sources if source.path)
+        return tuple(dict.fromkeys((*sources, *self.files_read.by_xacro)))
 
     @property
     def unread(self) -> tuple[Path, ...]:
         """The files that were requested but do not exist or are not text, in that order."""
-        return tuple(dict.fromkeys(self._unread))
+        return tuple(dict.fromkeys(self.files_read.unread))
+
+    @property
+    def named_files(self) -> frozenset[Path]:
+        """The files that the user names, in values too, as far as they exist: most values only look like a name."""
+        return frozenset(filter(exists, self.roots.files))
 
     @property
     def suppressions(self) -> tuple[Suppression, ...]:
@@ -140,30 +144,32 @@ class Loader:
         Returns None if it cannot be read, which is reported at the `use`, or is not a spec, reported in the file.
         """
         real = identity(path)
-        if real not in self._specs:
+        specs = self.files_read.specs
+        if real not in specs:
             is_urdf = path.suffix.lower() == ".urdf"
             source = self._read(path, used, sink)
             if source is None:
                 return None
             # A file that is used twice is read once; its faults are reported with the first use.
             inside = with_use_trace(sink, (used.where if used else None,))
-            self._specs[real] = (
+            specs[real] = (
                 _read_urdf(source, inside)
                 if is_urdf or begins_xml(source.text)
                 else self._compose(source, path.parent, inside)
             )
-        composed = self._specs[real]
+        composed = specs[real]
         return _reach(composed, path.parent, package) if composed else None
 
     def open_xml(self, path: Path, sink: Diagnostics, used: ImportSite | None = None) -> SourceFile | None:
         """Read an XML file in the encoding that it declares; `used` names it, None for the command line."""
         real = identity(path)
-        if real not in self._xml:
+        xml = self.files_read.xml
+        if real not in xml:
             source = self._read(path, used, sink)
             if source is None:
                 return None
-            self._xml[real] = source
-        return self._xml[real]
+            xml[real] = source
+        return xml[real]
 
     def open_text(self, path: Path, sink: Diagnostics) -> SourceFile | None:
         """Read the text of a file that the command line names; None after a reported error."""
@@ -172,13 +178,14 @@ class Loader:
     def open_data(self, path: Path, sink: Diagnostics, tags: Tags, used: ImportSite) -> YamlNode | None:
         """Read a YAML file of any shape that may hold `tags`; None after a reported error."""
         real = identity(path)
-        if real not in self._data:
+        data = self.files_read.data
+        if real not in data:
             source = self._read(path, used, sink)
             if source is None:
                 return None
             inside = AnnotatingSink(sink, [Note("read here", used.where)])
-            self._data[real] = read_data(source, inside, tags, self.budget)
-        return self._data[real]
+            data[real] = read_data(source, inside, tags, self.budget)
+        return data[real]
 
     def add_xml(self, name: str, text: str) -> SourceFile:
         """Add XML text that is not a file, or was read from a pipe."""
@@ -186,7 +193,7 @@ class Loader:
 
     def add_read_by_xacro(self, path: Path) -> None:
         """Record a file that the xacro process read, for `files`."""
-        self._read_by_xacro.append(as_typed(path))
+        self.files_read.by_xacro.append(as_typed(path))
 
     @contextmanager
     def separate_budget(self) -> Iterator[None]:
@@ -224,14 +231,14 @@ class Loader:
             byte = place_of_byte(error.undecoded, str(as_typed(path))) if error.undecoded else None
             notes = [Note("the byte is here", byte)] if byte and used.where else []
             sink.report(UNREADABLE_FILE.at(used.where or byte, path=used.text, reason=error, notes=notes))
-            self._unread.append(as_typed(path))
+            self.files_read.unread.append(as_typed(path))
             return None
         if text is None:
             notes = [searched_note(path, used.text, used.where)] if used.where else []
             user = used.where.file.path if used.where else None
             near = [name for name in names_in(path.parent) if _may_be(name, path.name) and path.with_name(name) != user]
             sink.report(NO_SUCH_FILE.at(used.where, path=used.text, name=path.name, near=near, notes=notes))
-            self._unread.append(as_typed(path))
+            self.files_read.unread.append(as_typed(path))
             return None
         return self._add_source(str(as_typed(path)), text, as_typed(path), used.where, included)
 
@@ -239,8 +246,10 @@ class Loader:
         self, name: str, text: str, path: Path | None, used: Span | None, included: Span | None = None
     ) -> SourceFile:
         self.budget.spend(Limit.CHARACTERS_READ, len(text), used)
-        source = cached_source(SourceFile(name, text, path, order=len(self._sources), included=included))
-        self._sources.append(source)
+        source = cached_source(SourceFile(name, text, path, order=len(self.files_read.sources), included=included))
+        if self._known_sources is not None:
+            source = _same_source(source, self._known_sources)
+        self.files_read.sources.append(source)
         return source
 
     def _compose(self, source: SourceFile, folder: Path | None, sink: Diagnostics) -> ComposedFile | None:
@@ -257,6 +266,15 @@ class Loader:
             return (file, part) if file and part is not None else None
 
         return compose(source, tree, folder, read_included, sink)
+
+
+def _same_source(source: SourceFile, known: dict[Place, SourceFile]) -> SourceFile:
+    """Return the known source if it has the same text at the same place; else the new one, which is known from now."""
+    place: Place = (source.name, source.path, source.order)
+    earlier = known.get(place)
+    if earlier is None or (earlier.text, earlier.included) != (source.text, source.included):
+        earlier = known[place] = source
+    return earlier
 
 
 def _may_be(file: str, name: str) -> bool:

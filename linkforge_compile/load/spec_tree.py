@@ -50,7 +50,7 @@ _MAIN_FILE_ONLY = ("name", "version", "description", "mount", "variants")
 _PER_FILE = ("linkforge", "include")
 _NESTED_SECTIONS = ("group_states", "disabled_collisions", "enabled_collisions", "joint_properties")
 
-_Place: TypeAlias = tuple[str, Path | None, int]
+Place: TypeAlias = tuple[str, Path | None, int]
 """The name of a file, its path, and how many files were read before it."""
 
 
@@ -59,7 +59,7 @@ class _CachedTree:
 
     def __init__(self, source: SourceFile, tree: YamlMap, values: int) -> None:
         self.source, self.tree, self.values = source, tree, values
-        self.place: _Place = (source.name, source.path, source.order)
+        self.place: Place = (source.name, source.path, source.order)
 
     @cached_property
     def is_computed(self) -> bool:
@@ -70,7 +70,7 @@ class _TreeCache:
     """The latest faultless tree of each place, the oldest dropped first; safe to share between threads."""
 
     def __init__(self) -> None:
-        self._trees: dict[_Place, _CachedTree] = {}
+        self._trees: dict[Place, _CachedTree] = {}
         self._characters = 0
         self._lock = Lock()
 
@@ -92,7 +92,7 @@ class _TreeCache:
             while self._characters > MAX_CACHED_CHARACTERS:
                 self._drop(next(iter(self._trees)))
 
-    def _drop(self, place: _Place) -> None:
+    def _drop(self, place: Place) -> None:
         dropped = self._trees.pop(place, None)
         self._characters -= len(dropped.source.text) if dropped else 0
 

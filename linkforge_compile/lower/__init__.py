@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.diagnostics import Diagnostics, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes import model
@@ -27,6 +29,7 @@ from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlSca
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.expand.shared_modules import Sharing
     from linkforge_compile.lower.semantic import WrittenState
 
 
@@ -36,57 +39,80 @@ _SECTIONS_WITH_POSITIONS = frozenset({"transmissions", "gazebo"})
 """The sections with positions of joints, but for group states, which are resolved with those of modules."""
 
 
-def lower(instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None) -> Lowered:
+def lower(
+    instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None, sharing: Sharing | None = None
+) -> Lowered:
     """Make one robot of a file and its modules: the parts of the file, then those of each module, as written.
 
     The parts of a module get its prefix, and its joint comes after them. Every fault is reported, and what is faulty is
-    left out. `meshes` caches the meshes of this compile.
+    left out. `meshes` caches the meshes of this compile. `sharing` has the modules of earlier compiles of the file.
     """
-    lowered = _lower_instance(instance, sink, meshes or MeshSolids(), instance.shared_files)
+    lowered = _Lowering(sink, meshes or MeshSolids(), instance.shared_files, sharing).lower(instance)
     if any(each.defaults is not None for each in instance.with_modules):
         check_defaults(instance, sink)
     return lowered
 
 
-def _lower_instance(
-    instance: Instance, sink: Diagnostics, meshes: MeshSolids, shared_files: frozenset[SourceFile]
-) -> Lowered:
-    """Lower one use of a file; `shared_files` are those that are used more than once."""
-    tree = instance.tree
-    if tree is None:
-        return Lowered(None, (), UnresolvedNames(prefixes=("",)))
-    file = lower_file(tree, instance.mesh_bases, instance.include_stack, sink, MeshReader(instance.find_mesh, meshes))
-    robot, is_compiled_file = file.robot, instance.entry is None
-    texts = None
-    if not is_compiled_file:
-        from linkforge_compile.lower.unprefixed_names import passthrough_texts, prefix_warnings
+class _Lowering(NamedTuple):
+    """The state of one compile; `shared_files` are those that are used more than once."""
 
-        # Before modules are merged, because these have warnings of their own.
-        users = {use.file for use in instance.include_stack}
-        texts = passthrough_texts(robot, tree, instance.prefix, users, is_shared=tree.span.file in shared_files)
-    unresolved = file.unresolved | UnresolvedNames(deleted=instance.removed)
-    lowered, mounts = Lowered(robot, (), unresolved), file.mounts
-    if instance.modules or mounts:
-        merger = ModuleMerger(file, unresolved, sink)
-        for module in instance.modules:
-            merger.add(module, _lower_instance(module, sink, meshes, shared_files))
-        lowered, mounts = merger.finish(is_compiled_file=is_compiled_file)
-    if file.states:
-        faulty_states = _add_group_states(robot, file.states, mounts, lowered.unresolved)
-        lowered = replace(lowered, unresolved=lowered.unresolved | faulty_states)
-    if is_compiled_file and robot.has_semantic:
-        from linkforge_compile.lower.semantic import group_by_name
+    sink: Diagnostics
+    meshes: MeshSolids
+    shared_files: frozenset[SourceFile]
+    sharing: Sharing | None
 
-        robot.semantic = group_by_name(robot.semantic)
-    if texts:
-        uses = notes_of(uses_in(instance.include_stack))
-        warnings = (replace(one, notes=(*one.notes, *uses)) for one in prefix_warnings(texts, robot))
-        lowered = replace(lowered, prefix_warnings=(*lowered.prefix_warnings, *warnings))
-    if instance.modules and not _SECTIONS_WITH_POSITIONS.isdisjoint(tree.entries):
-        joints = _joints_by_name(robot, [lowered.mount] if lowered.mount else [])
-        check_positions_of_module_joints(Fields(tree, "robot", sink, instance.include_stack), joints)
-    check_name_lookups(instance.references, robot, lowered.unresolved_alone, sink)
-    return lowered
+    def lower_module(self, module: Instance) -> Lowered:
+        """Lower a module, or take it from an earlier compile if its Instance is from there."""
+        if not (self.sharing and self.sharing.has(module)):
+            return self.lower(module)
+        shared_files = self.shared_files.intersection(each.tree.span.file for each in module.with_modules if each.tree)
+        lowered = self.sharing.lowered(module, shared_files, partial(self.lower, module))
+        return replace(lowered, robot=lowered.robot and _own_copy(lowered.robot))
+
+    def lower(self, instance: Instance) -> Lowered:
+        """Lower one use of a file, with its modules."""
+        sink, tree, stack = self.sink, instance.tree, instance.include_stack
+        if tree is None:
+            return Lowered(None, (), UnresolvedNames(prefixes=("",)))
+        file = lower_file(tree, instance.mesh_bases, stack, sink, MeshReader(instance.find_mesh, self.meshes))
+        robot, is_compiled_file = file.robot, instance.entry is None
+        texts = None
+        if not is_compiled_file:
+            from linkforge_compile.lower.unprefixed_names import passthrough_texts, prefix_warnings
+
+            # Before modules are merged, because these have warnings of their own.
+            users, is_shared = {use.file for use in stack}, tree.span.file in self.shared_files
+            texts = passthrough_texts(robot, tree, instance.prefix, users, is_shared=is_shared)
+        unresolved = file.unresolved | UnresolvedNames(deleted=instance.removed)
+        lowered, mounts = Lowered(robot, (), unresolved), file.mounts
+        if instance.modules or mounts:
+            merger = ModuleMerger(file, unresolved, sink)
+            for module in instance.modules:
+                merger.add(module, self.lower_module(module))
+            lowered, mounts = merger.finish(is_compiled_file=is_compiled_file)
+        if file.states:
+            faulty_states = _add_group_states(robot, file.states, mounts, lowered.unresolved)
+            lowered = replace(lowered, unresolved=lowered.unresolved | faulty_states)
+        if is_compiled_file and robot.has_semantic:
+            from linkforge_compile.lower.semantic import group_by_name
+
+            robot.semantic = group_by_name(robot.semantic)
+        if texts:
+            uses = notes_of(uses_in(stack))
+            warnings = (replace(one, notes=(*one.notes, *uses)) for one in prefix_warnings(texts, robot))
+            lowered = replace(lowered, prefix_warnings=(*lowered.prefix_warnings, *warnings))
+        if instance.modules and not _SECTIONS_WITH_POSITIONS.isdisjoint(tree.entries):
+            joints = _joints_by_name(robot, [lowered.mount] if lowered.mount else [])
+            check_positions_of_module_joints(Fields(tree, "robot", sink, stack), joints)
+        check_name_lookups(instance.references, robot, lowered.unresolved_alone, sink)
+        return lowered
+
+
+def _own_copy(robot: Robot) -> Robot:
+    """Return a robot that may be changed, as may its links; other parts are immutable."""
+    own = copy(robot)
+    own.links = map(copy, robot.links)
+    return own
 
 
 def _add_group_states(

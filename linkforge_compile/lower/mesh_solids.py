@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from linkforge_compile.core.meshes import MAX_BYTES, MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
@@ -24,6 +24,7 @@ from linkforge_compile.diagnostics.codes.physics import (
 )
 from linkforge_compile.diagnostics.entry_fixes import add_to_short_form
 from linkforge_compile.limits import Budget, Limit
+from linkforge_compile.load.files_read import FilesRead
 from linkforge_compile.load.loader import with_use_trace
 from linkforge_compile.load.locations import FindMesh
 from linkforge_compile.paths import as_typed, misspelt_part, path_base, searched_note
@@ -57,12 +58,10 @@ _CODES = {
 class MeshSolids:
     """The solids of all mesh files of one compile, each read once."""
 
-    def __init__(self, budget: Budget | None = None) -> None:
-        """`budget` is shared by the files of the compile; None for a new one."""
+    def __init__(self, budget: Budget | None = None, files: FilesRead | None = None) -> None:
+        """`budget` and `files` are those of the compile; None for new ones."""
         self._budget = budget or Budget()
-        self._known: dict[str, Solid | MeshError] = {}  # by real path
-        self._files: list[Path] = []
-        self._unread: list[Path] = []
+        self._files = files or FilesRead()
         self._uncollected = 0
         self.is_without_library = False
         """Whether a package that reads meshes is missing, which is reported once."""
@@ -70,12 +69,12 @@ class MeshSolids:
     @property
     def files(self) -> tuple[Path, ...]:
         """Every mesh file that was read, in that order, as its user would type it."""
-        return tuple(self._files)
+        return tuple(self._files.mesh_files)
 
     @property
     def unread(self) -> tuple[Path, ...]:
         """Every mesh file that is missing or too large, in the order of requests."""
-        return tuple(dict.fromkeys(self._unread))
+        return tuple(dict.fromkeys(self._files.unread_meshes))
 
     def solid(self, path: Path, where: Span) -> Solid | None:
         """Return the solid in a file that is named at a place, in the unit of the file; None for a missing file.
@@ -86,9 +85,9 @@ class MeshSolids:
 
         """
         real = identity(path)
-        known = self._known.get(real)
+        known = cast("Solid | MeshError | None", self._files.meshes.get(real))
         if known is None and (known := self._read(path, where)) is not None:
-            self._known[real] = known
+            self._files.meshes[real] = known
         if isinstance(known, MeshError):
             raise known
         return known
@@ -98,7 +97,7 @@ class MeshSolids:
         if content is None:
             return None
         self._budget.spend(Limit.MESH_BYTES, len(content), where)
-        self._files.append(as_typed(path))
+        self._files.mesh_files.append(as_typed(path))
         self._uncollected += len(content)
         if self._uncollected > _BYTES_UNTIL_COLLECTION:
             gc.collect()
@@ -114,11 +113,11 @@ class MeshSolids:
         try:
             content = read_bytes(path, MAX_BYTES, only_regular=True)
         except UnreadableError as error:
-            self._unread.append(as_typed(path))
+            self._files.unread_meshes.append(as_typed(path))
             fault = MeshFault.TOO_LARGE if isinstance(error, TooLargeError) else MeshFault.UNREADABLE
             raise MeshError(fault, str(error)) from error
         if content is None:
-            self._unread.append(as_typed(path))
+            self._files.unread_meshes.append(as_typed(path))
         return content
 
 

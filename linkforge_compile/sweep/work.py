@@ -14,6 +14,7 @@ from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expand.parameters import Parameter
+from linkforge_compile.expand.shared_modules import SharedModules
 from linkforge_compile.formats import Rendering, formats_or_default
 from linkforge_compile.formats.mesh_paths import meshes_of
 from linkforge_compile.shape_files import ShapeFiles
@@ -56,6 +57,10 @@ class Request(NamedTuple):
     has_files: bool = True
     function: Function | None = None
 
+    def shared_modules(self) -> SharedModules:
+        """Return the modules that points share, none yet; for one process, and one tree."""
+        return SharedModules(self.columns)
+
     def settings(self, point: Point, tree: Tree | None = None) -> Settings:
         """Return the settings of a point; in a tree, the packages lie there."""
         packages = {name: tree.place(path) if tree else path for name, path in self.packages.items()}
@@ -80,15 +85,20 @@ class Made(NamedTuple):
     read: tuple[Path, ...] = ()
 
 
-def make_all(request: Request, points: Sequence[Point], tree: Tree | None = None) -> list[Made]:
-    """Compile points, in the client's own folders, or in a tree of its files."""
+def make_all(
+    request: Request, points: Sequence[Point], tree: Tree | None = None, shared: SharedModules | None = None
+) -> list[Made]:
+    """Compile points, in the client's own folders, or in a tree of its files.
+
+    `shared` has the modules of points that were compiled here before.
+    """
     with tree.inside() if tree else nullcontext():
-        return [make(request, point, tree) for point in points]
+        return [make(request, point, tree, shared) for point in points]
 
 
-def make(request: Request, point: Point, tree: Tree | None = None) -> Made:
+def make(request: Request, point: Point, tree: Tree | None = None, shared: SharedModules | None = None) -> Made:
     """Compile one point; a robot with errors has a row with its diagnostics."""
-    compilation = compile_point(request, point, tree)
+    compilation = compile_point(request, point, tree, shared)
     hide = tree.top if tree else ""
     values = values_of(request, point)
     row: Row = {"index": point.index, **({} if point.variant is None else {"variant": point.variant})}
@@ -107,10 +117,12 @@ def make(request: Request, point: Point, tree: Tree | None = None) -> Made:
     return Made(point, row, files if request.has_files else {}, is_about_files, () if tree else files_of(compilation))
 
 
-def compile_point(request: Request, point: Point, tree: Tree | None = None) -> Compilation:
+def compile_point(
+    request: Request, point: Point, tree: Tree | None = None, shared: SharedModules | None = None
+) -> Compilation:
     """Compile the spec at a point."""
     spec = tree.place(request.spec) if tree else request.spec
-    return analyse_path(spec, request.settings(point, tree)).compilation
+    return analyse_path(spec, request.settings(point, tree)._replace(shared=shared)).compilation
 
 
 def files_of(compilation: Compilation) -> tuple[Path, ...]:
