@@ -40,6 +40,19 @@ _PACKAGES = ("linkforge_compile", "cloudpickle", "distributed")
 """What must have the same version in all processes: robots depend on the first, messages on the others."""
 
 
+def usable_processors(words: Wording) -> int:
+    """Return how many processors this process may use, by its affinity and the quota of its container."""
+    distributed(_instead(words))
+    from dask.system import cpu_count
+
+    count: int = cpu_count()
+    return count
+
+
+def _instead(words: Wording) -> str:
+    return f", or use one process: {words.one_process}"
+
+
 @contextmanager
 def cluster(place: Place, words: Wording) -> Iterator[Any]:
     """Connect to a scheduler, or start one with processes of one thread each on this machine.
@@ -49,7 +62,7 @@ def cluster(place: Place, words: Wording) -> Iterator[Any]:
             be started.
 
     """
-    distributed(f", or use one process: {words.one_process}")
+    distributed(_instead(words))
     import dask
     from distributed.utils import silence_logging_cmgr as silent
 

@@ -496,7 +496,7 @@ def test_few_robots_need_no_other_process(folder: Path, monkeypatch: pytest.Monk
         return Summary(plan.size)
 
     monkeypatch.setattr("linkforge_compile.sweep.session.execute", execute)
-    monkeypatch.setattr("linkforge_compile.cli.commands.sweep.usable_processors", lambda: 7)
+    monkeypatch.setattr("dask.system.cpu_count", lambda: 7)
     linkforge("sweep", "arm.robot.yaml", "-o", "out", "--sample", str(robots), cwd=folder)
     assert places == [Place(jobs)]
 

@@ -20,7 +20,6 @@ from linkforge_compile.cli.options import (
     refuse_options_of_other_formats,
     require_one_spec,
     split_assignments,
-    usable_processors,
 )
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 from linkforge_compile.cli.targets import name_of
@@ -242,6 +241,7 @@ def _choice_of(arguments: argparse.Namespace) -> Choice:
 
 
 def _place_of(plan: Plan, arguments: argparse.Namespace) -> Place:
+    from linkforge_compile.sweep.connection import usable_processors
     from linkforge_compile.sweep.place import Place
 
     given = {
@@ -254,8 +254,9 @@ def _place_of(plan: Plan, arguments: argparse.Namespace) -> Place:
         raise UsageError("--tls-ca, --tls-cert and --tls-key are for --scheduler; leave them out")
     if arguments.scheduler and arguments.jobs:
         raise UsageError("--jobs is for processes of this machine; those of --scheduler are started elsewhere")
-    jobs = 1 if plan.size < FEW else min(usable_processors(), MAX_JOBS)
-    return Place(arguments.jobs or jobs, arguments.scheduler, security)
+    if arguments.scheduler or arguments.jobs or plan.size < FEW:
+        return Place(arguments.jobs or 1, arguments.scheduler, security)
+    return Place(min(usable_processors(plan.choice.words), MAX_JOBS))
 
 
 def _print_summary(plan: Plan, summary: Summary, seconds: float, arguments: argparse.Namespace) -> None:
