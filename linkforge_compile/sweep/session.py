@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,6 +26,10 @@ Progress = Callable[[int, int], None]
 """Takes how many robots are done, and how many of them have errors."""
 
 
+MAX_GROUPS = 1000
+"""How many groups of errors, and how many of warnings, a summary has."""
+
+
 class Group(NamedTuple):
     """A fault of several robots: the message of the first of them, and how many they are.
 
@@ -39,12 +44,16 @@ class Group(NamedTuple):
 
 @dataclass
 class Summary:
-    """How many robots a sweep has, how many were compiled now, how many have errors, and the messages by how often."""
+    """How many robots a sweep has, how many were compiled now, how many have errors, and the messages by how often.
+
+    `cut_off` are the severities of which there are more groups than MAX_GROUPS; the later ones are omitted.
+    """
 
     robots: int = 0
     compiled: int = 0
     failed: int = 0
     groups: list[Group] = field(default_factory=list)
+    cut_off: frozenset[str] = frozenset()
 
 
 def execute(
@@ -73,7 +82,7 @@ def execute(
             progress(count, failed)
         with _write_errors(store.folder, later):
             store.finish()
-    summary.failed, summary.groups = _grouped(plan, store)
+    _add_groups(summary, plan, store)
     return summary
 
 
@@ -174,22 +183,25 @@ def _about_files(one: Made) -> list[tuple[str, str]]:
     return [each for each in messages if any(f"[{code}" in each[1] for code in ABOUT_FILES)]
 
 
-def _grouped(plan: Plan, store: Store) -> tuple[int, list[Group]]:
-    """Return how many robots have errors, and the messages of all, the most frequent error first."""
-    groups: dict[tuple[object, ...], Group] = {}
-    failed = 0
-    for rows in store.batches(("index", "errors", "warnings", "diagnostics")):
-        for row in rows:
-            failed += bool(row["errors"])
-            if not (row["errors"] or row["warnings"]):
-                continue
-            faults = {_kind(one): one for one in reversed(json.loads(str(row["diagnostics"])))}
-            for kind, one in faults.items():
-                if known := groups.get(kind):
-                    groups[kind] = known._replace(robots=known.robots + 1)
-                else:
-                    groups[kind] = Group(*_message(one), 1, plan.points[int(row["index"] or 0)])
-    return failed, sorted(groups.values(), key=lambda one: (one.severity, -one.robots, one.first.index))
+def _add_groups(summary: Summary, plan: Plan, store: Store) -> None:
+    """Add how many robots have errors, and the messages of all, the most frequent error first."""
+    found: dict[str, dict[tuple[object, ...], Group]] = {}
+    cut_off = set[str]()
+    for row in chain.from_iterable(store.batches(("index", "errors", "warnings", "diagnostics"))):
+        summary.failed += bool(row["errors"])
+        if not (row["errors"] or row["warnings"]):
+            continue
+        for kind, one in {_kind(one): one for one in reversed(json.loads(str(row["diagnostics"])))}.items():
+            groups = found.setdefault(one["severity"], {})
+            if known := groups.get(kind):
+                groups[kind] = known._replace(robots=known.robots + 1)
+            elif len(groups) < MAX_GROUPS:
+                groups[kind] = Group(*_message(one), 1, plan.points[int(row["index"] or 0)])
+            else:
+                cut_off.add(one["severity"])
+    groups_of_all = [one for groups in found.values() for one in groups.values()]
+    summary.groups = sorted(groups_of_all, key=lambda one: (one.severity, -one.robots, one.first.index))
+    summary.cut_off = frozenset(cut_off)
 
 
 def _kind(one: Mapping[str, object]) -> tuple[object, ...]:

@@ -123,6 +123,22 @@ def test_a_robot_with_errors_is_a_row_with_its_diagnostics(folder: Path):
     assert (folder / "out/robots/000002/arm.urdf").exists()
 
 
+def test_messages_that_differ_for_each_robot_are_bounded(folder: Path, monkeypatch: pytest.MonkeyPatch):
+    """Each of 25 robots has an error in a module of its own."""
+    write_tools(folder)
+    names = [f"tool_{index}" for index in range(25)]
+    for name in names:
+        (folder / f"{name}.robot.yaml").write_text(f"linkforge: 1\nname: {name}\nlinks: {{palm: {{mas: 1}}}}\n")
+    words = ("--set", f"tool={','.join(names)}")
+    for most, expected in ((1000, "and 5 other kinds"), (22, "and more than 2 other kinds")):
+        monkeypatch.setattr("linkforge_compile.sweep.session.MAX_GROUPS", most)
+        code, text = sweep(folder, *words)
+        lines = text.splitlines()
+        assert (code, len(lines)) == (1, 22)
+        assert lines[20] == f"{expected} of messages; the column `diagnostics` of the table has all"
+        shutil.rmtree(folder / "out")
+
+
 @pytest.mark.parametrize("pack", ["tar", "zip"])
 def test_robots_may_be_packed(folder: Path, pack: str):
     sweep(folder, "--set", "reach=0.4m:1m:5", "--pack", pack, "--chunk", "2")

@@ -265,7 +265,9 @@ def _print_summary(plan: Plan, summary: Summary, seconds: float, arguments: argp
     for group in groups[:MOST_GROUPS]:
         print_line(_group_line(group))
     if len(groups) > MOST_GROUPS:
-        print_line(f"and {len(groups) - MOST_GROUPS} more messages; the column `diagnostics` of the table has all")
+        more = "more than " if summary.cut_off.intersection(one.severity for one in groups) else ""
+        number = f"{more}{len(groups) - MOST_GROUPS:,}"
+        print_line(f"and {number} other kinds of messages; the column `diagnostics` of the table has all")
     rate = f", {summary.compiled / seconds:.0f} a second" if summary.compiled > seconds > 1 else ""
     before = summary.robots - summary.compiled
     resumed = f", {before:,} of them before" if before else ""
