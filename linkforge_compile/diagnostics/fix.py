@@ -146,10 +146,16 @@ def without_overlaps(fixes: Iterable[Fix]) -> list[Fix]:
 
 def apply_edits(file: SourceFile, edits: Iterable[Edit]) -> str:
     """Return the text of a file with its byte order mark after edits, none of which overlap."""
-    text, mark = file.counted, file.text[: len(file.text) - len(file.counted)]
-    parts, at = [mark], 0
-    for begin, end, new in sorted((*edit.span.range, edit.text) for edit in edits):
+    text = file.counted
+    return file.text.removesuffix(text) + edited(file.between(0, len(text)), edits)
+
+
+def edited(place: Span, edits: Iterable[Edit]) -> str:
+    """Return the text of a place after edits in it, none of which overlap."""
+    text, (at, end) = place.file.counted, place.range
+    parts: list[str] = []
+    for begin, after, new in sorted((*edit.span.range, edit.text) for edit in edits):
         assert begin >= at, "edits do not overlap"
         parts += (text[at:begin], new)
-        at = end
-    return "".join((*parts, text[at:]))
+        at = after
+    return "".join((*parts, text[at:end]))

@@ -25,8 +25,10 @@ def validate(tree: YamlMap, sink: Diagnostics, *, is_included: bool = False) -> 
     # Imported here because importing jsonschema costs 90 ms.
     from linkforge_compile.schema.explain import report_mismatches
     from linkforge_compile.schema.section_lines import restore_sections
+    from linkforge_compile.schema.state_groups import restore_groups_of_states
 
-    return report_mismatches(restore_sections(tree, sink), sink, is_included=is_included)
+    restored = restore_groups_of_states(restore_sections(tree, sink), sink)
+    return report_mismatches(restored, sink, is_included=is_included)
 
 
 def validate_computed(node: YamlNode, key: str, shape: Shape, sink: Diagnostics, *, is_entry: bool = False) -> YamlNode:
