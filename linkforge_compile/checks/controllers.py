@@ -7,14 +7,17 @@ from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.controller import (
+    CONTROLLER,
     DEFAULT_BROADCASTER,
     DEFAULT_TRAJECTORY,
+    HARDWARE,
     JOINT_FIELDS,
     MANAGER,
     default_name,
+    is_of_controller,
+    listed_names,
 )
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
-from linkforge_compile.core.models.manager_parameters import CONTROLLER, HARDWARE, is_of_controller, listed_names
 from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_GROUP,

@@ -96,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"linkforge {__version__}")
         return OK
     if arguments is None and "_ARGCOMPLETE" in os.environ:  # a shell asks how a line may go on
-        from linkforge_compile.cli.completion.finder import complete
+        from linkforge_compile.cli.completion import complete
 
         complete(COMMANDS, _parser_of)
     try:

@@ -7,7 +7,7 @@ import os
 import re
 import stat
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
@@ -226,14 +226,8 @@ def compile_spec(
     `text` is the content of a spec that was read already, because it can be read only once. `formats` are the
     requested ones.
     """
-    from linkforge_compile.pipeline import compile_path, compile_source
-
     settings = settings_of(assignments, arguments)._replace(folders=folders, formats=formats)
-    settings = settings if variant is None else settings._replace(variant=variant)
-    if spec == "-" or text is not None:
-        text = read_stdin() if text is None else text
-        return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
-    return compile_path(spec, settings)
+    return _compile(spec, settings if variant is None else settings._replace(variant=variant), text)
 
 
 def check_spec(
@@ -247,11 +241,15 @@ def check_spec(
 
     `buffers` are texts that are read instead of files, by real path.
     """
+    return _compile(spec, check_settings_of(assignments, arguments)._replace(variant=variant, buffers=buffers))
+
+
+def _compile(spec: str, settings: Settings, text: str | None = None) -> Compilation:
     from linkforge_compile.pipeline import compile_path, compile_source
 
-    settings = check_settings_of(assignments, arguments)._replace(variant=variant, buffers=buffers)
-    if spec == "-":
-        return compile_source(read_stdin(), STDIN, Path.cwd(), settings)
+    if spec == "-" or text is not None:
+        text = read_stdin() if text is None else text
+        return compile_source(text, STDIN if spec == "-" else spec, Path.cwd(), settings)
     return compile_path(spec, settings)
 
 
@@ -328,6 +326,19 @@ def _read_text(stream: BinaryIO, name: str) -> str:
         return text_of(content)
     except UnreadableError as error:
         raise UsageError(f"{name} cannot be read: {error}") from None
+
+
+def whole_number(least: int, most: int = sys.maxsize) -> Callable[[str], int]:
+    """Return what parses the value of an option as a whole number in a range."""
+
+    def parse(text: str) -> int:
+        number = int(text) if text.isascii() and text.isdigit() and len(text) <= 40 else -1
+        if not least <= number <= most:
+            limit = "" if most == sys.maxsize else f" to {most}"
+            raise argparse.ArgumentTypeError(f"takes a whole number from {least}{limit}, found '{text[:40]}'")
+        return number
+
+    return parse
 
 
 def usable_processors() -> int:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
@@ -14,13 +15,17 @@ from linkforge_compile.cli.options import Parser, packages_of, parse_packages, s
 from linkforge_compile.cli.reports import print_failure, print_status, progress_after, report
 from linkforge_compile.cli.specs import count
 from linkforge_compile.diagnostics import Diagnostic, Severity
+from linkforge_compile.export_spec import UnknownPathError, explain
+from linkforge_compile.export_spec.replacements import Replacement, replacements_in
 from linkforge_compile.roots import Roots, identity, is_file
 
 if TYPE_CHECKING:
     from linkforge_compile.analysis import Packages, Settings
+    from linkforge_compile.compare import Difference
     from linkforge_compile.core import Robot
     from linkforge_compile.importers.origin import Head
     from linkforge_compile.importing import Import
+    from linkforge_compile.source import Span
 
 
 def refresh(arguments: argparse.Namespace, add_arguments: Callable[[Parser], None]) -> int:
@@ -153,7 +158,6 @@ def _without_detour(folder: str) -> str:
 def _print_differences(spec: Path, after: str, users: Iterable[_User], arguments: argparse.Namespace) -> None:
     """Print what differs in the robot of the spec, if it can be compiled before and after, and what overrides hide."""
     from linkforge_compile.analysis import analyse_path
-    from linkforge_compile.cli.hidden_changes import with_hidden_marked
     from linkforge_compile.cli.output import write_to_stdout
     from linkforge_compile.compare import compare, removed_public_names
 
@@ -227,3 +231,41 @@ def _specs_around(spec: Path) -> list[Path]:
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} here; run it in the folder of the robots that use the spec") from error
     return [other for real, other in found.items() if real != identity(spec)]
+
+
+def with_hidden_marked(
+    differences: Iterable[Difference], imported: Robot, users: Iterable[Robot]
+) -> tuple[Difference, ...]:
+    """Return the differences of `imported` from what it was; a changed value names the overrides that hide it."""
+    replacements = [one for user in users for one in replacements_in(user)]
+    return tuple(_marked(one, imported, replacements) if one.kind == "changed" else one for one in differences)
+
+
+def _marked(difference: Difference, imported: Robot, replacements: Sequence[Replacement]) -> Difference:
+    # Explaining a value takes long, and most have no override.
+    same_key = [one for one in replacements if one.key in difference.path]
+    place = _written_place("/".join(difference.path), imported) if same_key else None
+    if place is None:
+        return difference
+    hiding = [one.value for one in same_key if _is_in(place, one.replaced)]
+    places = dict.fromkeys(f"{span.file.shown}:{span.line}" for span in hiding)
+    if not places:
+        return difference
+    overrides = "override" if len(places) == 1 else "overrides"
+    return replace(difference, text=f"{difference.text}, hidden by the {overrides} at {', '.join(places)}")
+
+
+def _written_place(path: str, robot: Robot) -> Span | None:
+    try:
+        explanation = explain(robot, path)
+    except UnknownPathError:
+        return None
+    return explanation.provenance.span if explanation.is_written and explanation.provenance else None
+
+
+def _is_in(place: Span, other: Span) -> bool:
+    """Whether a place lies in another one, which another compile has read."""
+    file, other_file = place.file.path, other.file.path
+    if file is None or other_file is None or identity(file) != identity(other_file):
+        return False
+    return other.start <= place.start and place.end <= other.end

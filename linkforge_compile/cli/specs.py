@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import UsageError
-from linkforge_compile.cli.options import packages_of
+from linkforge_compile.cli.options import compile_spec, packages_of, require_one_spec, split_assignments
+from linkforge_compile.cli.reports import report
 from linkforge_compile.diagnostics import Code, Diagnostic, Note
 from linkforge_compile.diagnostics.codes.modules import NO_SPEC_BELOW, OUTSIDE_ROOTS, UNREADABLE_FILE
 
 if TYPE_CHECKING:
     import argparse
+
+    from linkforge_compile.core.models.robot import Robot
 
 _MAX_SPECS = 5_000
 """The most specs in one folder; more are hardly the sources of robots."""
@@ -75,6 +78,24 @@ def _find(word: str, arguments: argparse.Namespace, report: Callable[[Diagnostic
         return tuple(map(str, find_specs(folder, _MAX_SPECS, roots=roots, unread=unread, outside=outside)))
     except TooManyFilesError as error:
         raise UsageError(f"there are {error} below '{word}'; name the folders of the robots") from error
+
+
+class OneSpec(NamedTuple):
+    """The spec of a command line, its robot, and the files that it was made from."""
+
+    spec: str
+    robot: Robot
+    files: tuple[Path, ...]
+
+
+def compile_one(arguments: argparse.Namespace) -> OneSpec | None:
+    """Compile the one spec of a command line, and report on it; None if it has errors."""
+    words, assignments = split_assignments(arguments.words)
+    spec = require_one_spec(words)
+    compilation = compile_spec(spec, assignments, arguments)
+    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+        return None
+    return OneSpec(spec, compilation.robot, compilation.files)
 
 
 class SpecReport(NamedTuple):

@@ -4,12 +4,10 @@ Each module imports only those above it:
 
     scene      bodies, their motion and shapes, as plain values that other processes can get
     meshes     find and read the meshes of collisions
-    pairs      the pairs of links: which are adjacent, and which can be compared at all
+    pairs      the pairs of links: which are adjacent, comparable, or declared by a module
     collider   compute which pairs collide at some positions, with Pinocchio and coal
-    blocks     search blocks of samples for collisions, in this process or in several
-    sampling   sample positions, and give each pair its reason
-    modules    which modules declare pairs of their own, so that they are not sampled inside
+    sampling   sample positions, in this process or in several, and give each pair its reason
     matrix     put together what is declared and what is found
     poses      find which pairs collide in the named states of groups
-    section    the text of `disabled_collisions`
+    rewrite    the text of `disabled_collisions`, and a spec with it
 """

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.collisions.meshes import find_meshes
-from linkforge_compile.collisions.modules import KnownModules, is_own
-from linkforge_compile.collisions.pairs import Names, Reason, comparable_pairs
+from linkforge_compile.collisions.pairs import KnownModules, Names, Reason, comparable_pairs, is_own
 from linkforge_compile.collisions.sampling import ALWAYS_SHARE, Finding, Progress, SamplingSettings, find_reasons
 from linkforge_compile.collisions.scene import make_scene
 from linkforge_compile.core.models.robot import Robot

@@ -1,4 +1,4 @@
-"""Pairs of links: which are adjacent, and for which a sample can tell whether they collide."""
+"""Pairs of links: which are adjacent, which a sample can tell apart, and which a module declares by itself."""
 
 from __future__ import annotations
 
@@ -6,9 +6,14 @@ from collections import defaultdict
 from collections.abc import Iterator
 from enum import StrEnum
 from itertools import combinations
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.collisions.scene import Scene
+
+if TYPE_CHECKING:
+    from linkforge_compile.core.models.robot import Robot
+    from linkforge_compile.core.models.srdf_collisions import CollisionPair
+
 
 Pair: TypeAlias = tuple[int, int]
 """The places of two bodies in their scene, in ascending order."""
@@ -58,3 +63,23 @@ def adjacent_pairs(scene: Scene) -> set[Pair]:
     for neighbors in around.values():
         adjacent.update(combinations(sorted(neighbors), 2))
     return adjacent
+
+
+def is_own(pair: CollisionPair) -> bool:
+    """Whether a pair is declared in the compiled file or its includes, and not by a module."""
+    return pair.source is None or not pair.source.modules
+
+
+class KnownModules:
+    """The modules of a robot that declare pairs."""
+
+    def __init__(self, robot: Robot) -> None:
+        known = {pair.source.modules for pair in robot.semantic.disabled_collisions if pair.source and not is_own(pair)}
+        self._modules: dict[str, set[tuple[str, ...]]] = {}
+        for link in robot.links:
+            own = link.source.modules if link.source else ()
+            self._modules[link.name] = {module for module in known if own[: len(module)] == module}
+
+    def hold(self, one: str, other: str) -> bool:
+        """Whether two links are in one module that declares pairs, or in modules that it uses."""
+        return bool(self._modules[one] & self._modules[other])

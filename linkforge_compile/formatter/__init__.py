@@ -1,8 +1,7 @@
 """Format specs: only the white space between the tokens of YAML changes.
 
     safe_format  format a text, and compare what is read of it before and after
-    layout       indentation, spaces and places of comments
-    tables       columns that spaces align
+    layout       indentation, spaces, places of comments, and columns that spaces align
     scalars      texts over several lines
     pieces       a text as tokens with the gaps between them
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
 from shutil import rmtree
@@ -12,25 +13,64 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from weakref import ref
 
 import launch.logging
+from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
+from launch_ros.parameter_descriptions import ParameterValue
 
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.formats import NO_OPTIONS, SRDF, URDF, Format, Options, Rendering, format_named, require_options
 from linkforge_compile.launch.arguments import LaunchArguments
-from linkforge_compile.launch.texts import LaunchedFile, LaunchedText, TextParameter
 from linkforge_compile.pipeline import CliArgument, CompileError, Packages, compile_file, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from launch import LaunchContext
-    from launch.substitution import Substitution
 
     from linkforge_compile.core import Robot
     from linkforge_compile.formats.urdf import Gazebo
-    from linkforge_compile.launch.values import Given, Words
+    from linkforge_compile.launch.arguments import Given, Words
 
     Values: TypeAlias = tuple[str | None, Mapping[str, CliArgument], tuple[str, ...]]
+
+
+class LaunchedText(Substitution):  # type: ignore[misc]  # the launch package has no types
+    """A text that is made when it is launched; `title` is shown for it."""
+
+    def __init__(self, title: str, make: Callable[[LaunchContext], str]) -> None:
+        super().__init__()
+        self._title, self._make = title, make
+
+    def describe(self) -> str:
+        return self._title
+
+    def perform(self, context: LaunchContext) -> str:
+        return self._make(context)
+
+
+class LaunchedFile(Substitution):  # type: ignore[misc]  # the launch package has no types
+    """The path of a file with a text, which is written when it is launched; `make_path` is called then."""
+
+    def __init__(self, text: LaunchedText, make_path: Callable[[], Path]) -> None:
+        super().__init__()
+        self._text, self._make_path = text, make_path
+
+    def describe(self) -> str:
+        return self._text.describe()
+
+    def perform(self, context: LaunchContext) -> str:
+        path = self._make_path()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(self._text.perform(context), "utf-8")
+        return str(path)
+
+
+class TextParameter(ParameterValue):  # type: ignore[misc]  # the launch_ros package has no types
+    """A text as a ROS parameter, evaluated anew each time; ParameterValue keeps its first value, in any launch."""
+
+    def evaluate(self, context: LaunchContext) -> str:
+        # Without a type, ROS would read the text as YAML.
+        return str(ParameterValue(self.value, value_type=str).evaluate(context))
 
 
 class _Compiled(NamedTuple):

@@ -8,10 +8,9 @@ from typing import TypedDict, TypeVar
 
 from linkforge_compile.core.constants import HW_IF_POSITION
 from linkforge_compile.core.fields import BEYOND_EPSILON, Child, field_specs
-from linkforge_compile.core.models.controller import MANAGER, Controller
+from linkforge_compile.core.models.controller import MANAGER, Controller, kind_of_names
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS
-from linkforge_compile.core.models.manager_parameters import kind_of_names
 from linkforge_compile.core.models.ros2_control import (
     Interface,
     Ros2Control,

@@ -6,8 +6,7 @@ import json
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
-from linkforge_compile.core.models.controller import MANAGER
-from linkforge_compile.core.models.manager_parameters import HARDWARE, kind_of_names, listed_names
+from linkforge_compile.core.models.controller import HARDWARE, MANAGER, kind_of_names, listed_names
 from linkforge_compile.core.part import FrozenMap
 from linkforge_compile.core.sourced_text import SourcedText
 from linkforge_compile.diagnostics import Diagnostics, Note

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.formats.groups import joints_by_group
 from linkforge_compile.formats.mesh_paths import meshes_of
-from linkforge_compile.overview.extent import Extent, measure_extent
+from linkforge_compile.overview.extent import Extent, Reach, farthest, measure_extent, reaches_from, zero_poses
 from linkforge_compile.overview.graph import module_boxes, walk_boxes
-from linkforge_compile.overview.reach import Reach, farthest, reaches_from, zero_poses
 from linkforge_compile.overview.tree import tree_rows
 from linkforge_compile.shape_files import ShapeFiles
 from linkforge_compile.source.characters import UnreadableError

@@ -15,8 +15,7 @@ from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     from linkforge_compile.listing import ListedParameter, Listing
-    from linkforge_compile.overview.extent import Extent
-    from linkforge_compile.overview.reach import Reach
+    from linkforge_compile.overview.extent import Extent, Reach
 
 WIDTH = 100
 _LABEL = 16

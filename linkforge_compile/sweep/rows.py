@@ -12,8 +12,8 @@ from linkforge_compile.core.models.link import InertiaTensor
 from linkforge_compile.core.physics import shifted
 from linkforge_compile.core.poses import Pose
 from linkforge_compile.diagnostics import Severity
+from linkforge_compile.overview.extent import farthest, reaches_from, zero_poses
 from linkforge_compile.overview.figures import mass_of
-from linkforge_compile.overview.reach import farthest, reaches_from, zero_poses
 
 if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot

@@ -19,7 +19,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from linkforge_compile.diagnostics.codes import REGISTER
 from linkforge_compile.resources import manual_folder
-from linkforge_compile.view.policy import content_security_policy
+from linkforge_compile.view.html import content_security_policy
 from linkforge_compile.view.scene import Scene
 from linkforge_compile.view.session import Session
 

@@ -149,10 +149,10 @@ def test_completions_have_descriptions(robots: Path):
 SLOW = """
 import sys, time
 from linkforge_compile import pipeline
-from linkforge_compile.cli.completion import finder
+from linkforge_compile.cli import completion
 from linkforge_compile.cli.main import main
 
-finder.PATIENCE = 0.1
+completion.PATIENCE = 0.1
 pipeline.parameters_of = lambda *_, **__: time.sleep(60)
 sys.argv[1:] = []
 main()

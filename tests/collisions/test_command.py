@@ -188,7 +188,7 @@ def test_samples_are_a_whole_number(word: str, arm: Path):
 def test_a_seed_is_not_negative(arm: Path):
     done = linkforge("collisions", arm.name, "--seed", "-1", cwd=arm.parent)
     assert done.returncode == 2
-    assert "takes a whole number from 0 on, found '-1'" in done.stderr
+    assert "takes a whole number from 0 to 18446744073709551615, found '-1'" in done.stderr
 
 
 def test_missing_libraries_are_named_with_the_way_to_install_them(arm: Path, monkeypatch: pytest.MonkeyPatch):

@@ -10,9 +10,9 @@ import trimesh
 
 from linkforge_compile import check_file, compile_text, render_urdf
 from linkforge_compile.core import Robot
+from linkforge_compile.overview.extent import reaches_from, zero_poses
 from linkforge_compile.overview.figures import Figures, figures_of, mass_of
 from linkforge_compile.overview.figures_text import render_figures
-from linkforge_compile.overview.reach import reaches_from, zero_poses
 from tests.conftest import ROOT
 from tests.consumers import pinocchio_model
 

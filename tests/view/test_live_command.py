@@ -128,7 +128,7 @@ def test_a_port_that_is_not_free_is_wrong_usage(folder: Path):
     ("words", "message"),
     [
         (("-",), "takes a file, not standard input"),
-        (("arm.robot.yaml", "--port", "65536"), "takes a port from 0, any free one, to 65535, found '65536'"),
+        (("arm.robot.yaml", "--port", "65536"), "takes a whole number from 0 to 65535, found '65536'"),
         (("arm.robot.yaml", "--format", "html"), "--format is about a file; add -o FILE.html"),
         (("arm.robot.yaml", "--port", "1", "-o", "a.html"), "--port is about the page in a browser"),
         (("arm.robot.yaml", "--pose", "arm/home", "--no-browser"), "the robot has no state 'arm/home'"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from linkforge_compile.cli.options import (
     settings_of,
     split_assignments,
     usable_processors,
+    whole_number,
 )
 from linkforge_compile.cli.poses import states_of
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
@@ -22,6 +22,8 @@ from linkforge_compile.cli.specs import FoundSpecs, SpecReport, count, find_part
 from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
+    import argparse
+
     from linkforge_compile.analysis import Settings
     from linkforge_compile.collisions.matrix import Matrix
     from linkforge_compile.collisions.pairs import Names
@@ -36,6 +38,8 @@ DEFAULT_SAMPLES = 10_000
 
 MAX_SAMPLES = 100_000_000
 """More samples would take days."""
+
+MAX_SEED = 2**64 - 1
 
 MAX_JOBS = 256
 """Each process has a copy of the robot in memory."""
@@ -63,11 +67,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words", metavar="SPEC", nargs="+", help="specs, NAME.robot.yaml, or folders; - for standard input"
     )
-    parser.add_argument(
-        "--samples", metavar="N", type=_samples, help=f"the number of random positions (default: {DEFAULT_SAMPLES})"
-    )
-    parser.add_argument("--seed", metavar="N", type=_seed, help="the seed of the positions (default: 0)")
-    parser.add_argument("--jobs", metavar="N", type=_jobs, help="the number of processes (default: one per processor)")
+    for option, least, most, about in (
+        ("--samples", 1, MAX_SAMPLES, f"the number of random positions (default: {DEFAULT_SAMPLES})"),
+        ("--seed", 0, MAX_SEED, "the seed of the positions (default: 0)"),
+        ("--jobs", 1, MAX_JOBS, "the number of processes (default: one per processor)"),
+    ):
+        parser.add_argument(option, metavar="N", type=whole_number(least, most), help=about)
     parser.add_argument("--all", action="store_true", help="sample the pairs inside modules that have pairs as well")
     output = parser.add_mutually_exclusive_group()
     output.add_argument("--write", action="store_true", help="change the section in the spec instead of printing it")
@@ -181,7 +186,7 @@ def _collision_json(one: Collision) -> dict[str, object]:
 def _print(results: Mapping[str, Matrix], arguments: argparse.Namespace, *, is_one: bool) -> None:
     """Print the matrix of one spec, or those of several with their specs."""
     from linkforge_compile.cli.output import json_text, write_to_stdout
-    from linkforge_compile.collisions.section import section_text
+    from linkforge_compile.collisions.rewrite import section_text
 
     if arguments.json:
         documents = [{**({} if is_one else {"spec": spec}), **_json(one, arguments)} for spec, one in results.items()]
@@ -291,24 +296,3 @@ def _json(matrix: Matrix, arguments: argparse.Namespace) -> dict[str, object]:
         "disabled": [{"link1": one, "link2": other, "reason": why} for (one, other), why in matrix.disabled.items()],
         "checked": [{"link1": one, "link2": other} for one, other in matrix.checked],
     }
-
-
-def _samples(text: str) -> int:
-    return _count(text, MAX_SAMPLES)
-
-
-def _jobs(text: str) -> int:
-    return _count(text, MAX_JOBS)
-
-
-def _count(text: str, most: int) -> int:
-    digits = text.lstrip("0")
-    if not text.isdecimal() or not digits or len(digits) > len(str(most)) or int(digits) > most:
-        raise argparse.ArgumentTypeError(f"takes a whole number from 1 to {most}, found '{text[:40]}'")
-    return int(digits)
-
-
-def _seed(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"takes a whole number from 0 on, found '{text}'")
-    return int(text)

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.cli import OK, UsageError
-from linkforge_compile.cli.diff_folders import in_common_folders
 from linkforge_compile.cli.diff_page import require_html, write_page
-from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, load, parse_side, share_out
+from linkforge_compile.cli.diff_sides import SIDES, Side, as_urdfs, in_common_folders, load, parse_side, share_out
 from linkforge_compile.cli.diff_text import difference_lines
 from linkforge_compile.cli.options import add_format_options, add_spec_options, split_assignments
 from linkforge_compile.cli.reports import add_report_options, report

@@ -6,14 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
-from linkforge_compile.cli.options import (
-    add_spec_and_values,
-    add_spec_options,
-    compile_spec,
-    require_one_spec,
-    split_assignments,
-)
-from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options
+from linkforge_compile.cli.reports import add_report_options
+from linkforge_compile.cli.specs import compile_one
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.source.characters import on_one_line
 
@@ -41,17 +36,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
-    compilation = compile_spec(spec, assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+    one = compile_one(arguments)
+    if one is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import refuse_to_replace, write_document
     from linkforge_compile.export_spec import write_spec
 
     output = file_to_write(arguments.output)
-    refuse_to_replace(compilation.files, [output])
-    name = on_one_line(Path(spec).name)
-    banner = None if spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
-    write_document(write_spec(compilation.robot, banner=banner, origins=True), output, arguments)
+    refuse_to_replace(one.files, [output])
+    name = on_one_line(Path(one.spec).name)
+    banner = None if one.spec == "-" else f"Expanded by linkforge from {name}; edit that file, not this one."
+    write_document(write_spec(one.robot, banner=banner, origins=True), output, arguments)
     return OK

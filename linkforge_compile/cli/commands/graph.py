@@ -5,14 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
-from linkforge_compile.cli.options import (
-    add_spec_and_values,
-    add_spec_options,
-    compile_spec,
-    require_one_spec,
-    split_assignments,
-)
-from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options
+from linkforge_compile.cli.reports import add_report_options
+from linkforge_compile.cli.specs import compile_one
 
 if TYPE_CHECKING:
     import argparse
@@ -48,16 +43,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.targets import file_to_write
 
-    specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
     form, output = _format_of(arguments), file_to_write(arguments.output)
-    compilation = compile_spec(spec, assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+    one = compile_one(arguments)
+    if one is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import refuse_to_replace, write_document
 
-    refuse_to_replace(compilation.files, [output])
-    write_document(_render(compilation.robot, form), output, arguments)
+    refuse_to_replace(one.files, [output])
+    write_document(_render(one.robot, form), output, arguments)
     return OK
 
 

@@ -6,15 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
-from linkforge_compile.cli.options import (
-    add_spec_and_values,
-    add_spec_options,
-    compile_spec,
-    packages_of,
-    require_one_spec,
-    split_assignments,
-)
-from linkforge_compile.cli.reports import add_report_options, report
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, packages_of
+from linkforge_compile.cli.reports import add_report_options
+from linkforge_compile.cli.specs import compile_one
 
 if TYPE_CHECKING:
     import argparse
@@ -44,16 +38,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    specs, assignments = split_assignments(arguments.words)
-    spec = require_one_spec(specs)
-    compilation = compile_spec(spec, assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+    one = compile_one(arguments)
+    if one is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import json_text, write_to_stdout
     from linkforge_compile.overview.figures import figures_of
     from linkforge_compile.overview.figures_text import figures_document, render_figures
 
-    figures, listing = figures_of(compilation.robot), _listing(spec, arguments)
+    figures, listing = figures_of(one.robot), _listing(one.spec, arguments)
     if arguments.json:
         write_to_stdout(json_text(figures_document(figures, listing)))
     else:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,11 +18,14 @@ from linkforge_compile.cli.options import (
     refuse_options_of_other_formats,
     require_one_spec,
     split_assignments,
+    whole_number,
 )
 from linkforge_compile.cli.reports import add_report_options, print_line, print_status, report
 from linkforge_compile.cli.targets import name_of
 
 if TYPE_CHECKING:
+    import argparse
+
     from linkforge_compile.sweep.place import Place
     from linkforge_compile.sweep.plan import Choice, Plan
     from linkforge_compile.sweep.session import Group, Summary
@@ -83,7 +84,7 @@ def _add_choice_options(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="vary a parameter: START:STOP:COUNT, or VALUE,VALUE,…; --set are combined. With --sample also LO:HI",
     )
-    group.add_argument("--sample", metavar="N", type=_positive, help="draw N random points instead of a grid")
+    group.add_argument("--sample", metavar="N", type=whole_number(1), help="draw N random points instead of a grid")
     group.add_argument("--seed", metavar="S", type=int, help="the seed of --sample, a whole number (default: 0)")
     group.add_argument(
         "--values", metavar="FILE", type=Path, help="a CSV or Parquet file: columns are parameters, rows are points"
@@ -91,7 +92,7 @@ def _add_choice_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--where", metavar="EXPR", help="compile only points that fulfil an expression, such as '$(reach > 2 * base)'"
     )
-    group.add_argument("--max-points", metavar="N", type=_positive, help="allow more than 1,000,000 points")
+    group.add_argument("--max-points", metavar="N", type=whole_number(1), help="allow more than 1,000,000 points")
 
 
 def _add_output_options(parser: argparse.ArgumentParser) -> None:
@@ -108,7 +109,7 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--chunk",
         metavar="N",
-        type=_positive,
+        type=whole_number(1),
         help="robots that are compiled and written together (default: a 32nd of all, at most 100)",
     )
     group.add_argument("--resume", action="store_true", help="continue an interrupted sweep in the same folder")
@@ -119,7 +120,7 @@ def _add_place_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--jobs",
         metavar="N",
-        type=_jobs,
+        type=whole_number(1, MAX_JOBS),
         help=f"the number of processes; 1 needs no Dask (default: one per processor, 1 for fewer than {FEW} robots)",
     )
     group.add_argument(
@@ -282,19 +283,3 @@ def _group_line(group: Group) -> str:
     robots = f"{group.robots:,} robot{'' if group.robots == 1 else 's'}"
     example = f"such as {group.first.index:06} ({' '.join(group.first.words)})"
     return f"{group.severity} in {robots}, {example}: {group.text}"
-
-
-def _positive(text: str) -> int:
-    return _whole_number(text, sys.maxsize)
-
-
-def _jobs(text: str) -> int:
-    return _whole_number(text, MAX_JOBS)
-
-
-def _whole_number(text: str, most: int) -> int:
-    number = int(text) if text.isascii() and text.isdigit() and len(text) < 20 else 0
-    if not 0 < number <= most:
-        limit = "" if most == sys.maxsize else f" to {most}"
-        raise argparse.ArgumentTypeError(f"takes a whole number from 1{limit}, found '{text}'")
-    return number

@@ -7,14 +7,9 @@ import sys
 from shutil import get_terminal_size
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
-from linkforge_compile.cli.options import (
-    add_spec_and_values,
-    add_spec_options,
-    compile_spec,
-    require_one_spec,
-    split_assignments,
-)
-from linkforge_compile.cli.reports import add_report_options, is_colored, report
+from linkforge_compile.cli.options import add_spec_and_values, add_spec_options, whole_number
+from linkforge_compile.cli.reports import add_report_options, is_colored
+from linkforge_compile.cli.specs import compile_one
 
 _EXAMPLES = """\
 Each link has the joint above it, with its name, type and axis, and the range of its position (angles in degrees,
@@ -36,25 +31,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--links", action="store_true", help="only the names of the links")
     form.add_argument("--json", action="store_true", help="as JSON, for tools")
-    parser.add_argument("--depth", metavar="N", type=_depth, help="only links with at most N joints above them")
+    parser.add_argument(
+        "--depth", metavar="N", type=whole_number(0), help="only links with at most N joints above them"
+    )
     add_spec_options(parser)
     add_report_options(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    specs, assignments = split_assignments(arguments.words)
-    compilation = compile_spec(require_one_spec(specs), assignments, arguments)
-    if report(compilation.diagnostics, arguments) or compilation.robot is None:
+    one = compile_one(arguments)
+    if one is None:
         return FAULTY_SPEC
     from linkforge_compile.cli.output import json_text, write_to_stdout
     from linkforge_compile.overview.tree import cut_below, tree_document, tree_rows
     from linkforge_compile.overview.tree_text import WIDTH, lines_for, render_links, render_tree
 
-    rows = tree_rows(compilation.robot)
+    rows = tree_rows(one.robot)
     if arguments.depth is not None:
         rows = cut_below(rows, arguments.depth)
     if arguments.json:
-        write_to_stdout(json_text(tree_document(compilation.robot, rows)))
+        write_to_stdout(json_text(tree_document(one.robot, rows)))
         return OK
     drawn, colored = lines_for(sys.stdout.encoding), is_colored(sys.stdout, arguments.color)
     if arguments.links:
@@ -64,9 +60,3 @@ def run(arguments: argparse.Namespace) -> int:
         lines = render_tree(rows, drawn, is_colored=colored, width=width)
     write_to_stdout("".join(f"{line}\n" for line in lines))
     return OK
-
-
-def _depth(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and len(text) < 10):
-        raise argparse.ArgumentTypeError(f"takes a whole number from 0, found '{text}'")
-    return int(text)

@@ -15,6 +15,7 @@ from linkforge_compile.cli.options import (
     compile_spec,
     require_one_spec,
     split_assignments,
+    whole_number,
 )
 from linkforge_compile.cli.poses import positions_of
 from linkforge_compile.cli.reports import add_report_options, print_status, progress_after, report
@@ -123,7 +124,10 @@ def _add_first_view_options(parser: argparse.ArgumentParser) -> None:
 def _add_live_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the page that a server shows."""
     parser.add_argument(
-        "--port", metavar="N", type=_port, help="serve the page on this port of 127.0.0.1 (default: any free port)"
+        "--port",
+        metavar="N",
+        type=whole_number(0, MAX_PORT),
+        help="serve the page on this port of 127.0.0.1 (default: any free port)",
     )
     parser.add_argument(
         "--no-browser", action="store_true", help="print the address of the page without opening a browser"
@@ -230,12 +234,6 @@ def _content(form: str, scene: Scene, files: RobotFiles, arguments: argparse.Nam
         return picture.png
     except (NoPageError, PictureError) as error:
         raise UsageError(str(error)) from error
-
-
-def _port(text: str) -> int:
-    if not (text.isascii() and text.isdecimal()) or len(text) > 5 or int(text) > MAX_PORT:
-        raise argparse.ArgumentTypeError(f"takes a port from 0, any free one, to {MAX_PORT}, found '{text[:40]}'")
-    return int(text)
 
 
 def _camera(text: str) -> SceneCamera:

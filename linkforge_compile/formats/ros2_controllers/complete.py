@@ -12,6 +12,7 @@ from linkforge_compile.core.models.controller import (
     MANAGER,
     Controller,
     default_name,
+    loaded_class,
 )
 from linkforge_compile.core.models.controller_kinds import (
     FORWARD,
@@ -24,7 +25,6 @@ from linkforge_compile.core.models.controller_kinds import (
     lift_parameters,
     path_of_field,
 )
-from linkforge_compile.core.models.manager_parameters import loaded_class
 from linkforge_compile.diagnostics.codes.formats import NO_HARDWARE
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest

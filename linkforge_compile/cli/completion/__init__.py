@@ -1,1 +1,0 @@
-"""Completion of command lines: `finder` answers a shell through argcomplete, `candidates` knows what a word may be."""
