@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
 from linkforge_compile.core.models.controller import (
@@ -18,7 +17,9 @@ from linkforge_compile.core.models.controller import (
     listed_names,
 )
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_GROUP,
     UNKNOWN_HARDWARE_SENSOR,
@@ -26,11 +27,7 @@ from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_LINK,
     UNKNOWN_OF_MANAGER,
 )
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef
 
 
 def check_names_in_controllers(robot: Robot, unresolved: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import takewhile
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.checks.names import Reference
 from linkforge_compile.checks.tree import child_reference
 from linkforge_compile.core.constants import WORLD
-from linkforge_compile.core.models.gazebo import BLOCK_THAT_KEEPS_JOINT, KEEP_FIXED_JOINT
+from linkforge_compile.core.models.gazebo import BLOCK_THAT_KEEPS_JOINT, KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.part import FreePart
 from linkforge_compile.diagnostics import Diagnostic, Note, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import TAG_OF_TWO_BLOCKS
 from linkforge_compile.diagnostics.codes.physics import (
@@ -24,13 +26,8 @@ from linkforge_compile.diagnostics.codes.physics import (
 )
 from linkforge_compile.diagnostics.entry_fixes import add_entry
 from linkforge_compile.diagnostics.grouping import SHOWN, join_names
+from linkforge_compile.source import SourceRef
 from linkforge_compile.units import number_text
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboElement
-    from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.part import FreePart
-    from linkforge_compile.source import SourceRef
 
 NEGLIGIBLE_MASS = 1e-6
 """A mass that Gazebo treats as none [kg]."""

@@ -7,11 +7,11 @@ from functools import cached_property, reduce
 from graphlib import CycleError, TopologicalSorter
 from itertools import takewhile
 from operator import or_
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_cycles
 from linkforge_compile.core.models.graph import parent_joints, walk_up
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import Chain
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     CHAIN_ACROSS,
@@ -23,9 +23,6 @@ from linkforge_compile.diagnostics.codes.model import (
     PARENT_LINK_OUTSIDE_GROUP,
 )
 from linkforge_compile.diagnostics.entry_fixes import exchange
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import Chain
 
 
 def check_group_cycles(robot: Robot, _: UnresolvedNames) -> Iterator[Diagnostic]:

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 from linkforge_compile.core.models.graph import find_cycles
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics import Code, Diagnostic, Note, UnresolvedNames, notes_of
 from linkforge_compile.diagnostics.codes.names import DUPLICATE_NAME, FRAME_WITH_SLASH, LINK_AND_JOINT, RESERVED_NAME
 from linkforge_compile.diagnostics.grouping import SHOWN
 from linkforge_compile.source import Key, SourceRef, Span
 from linkforge_compile.source.provenance import uses_in
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import GroupState
-    from linkforge_compile.source import SourceRef
 
 
 class NamedPart(Protocol):

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference, report_unknown
+from linkforge_compile.core.models.gazebo import GazeboPlugin
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import INFO_FIELDS
+from linkforge_compile.core.part import Part
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import SCANNER_WITHOUT_RAYS
 from linkforge_compile.diagnostics.codes.names import (
@@ -23,12 +24,7 @@ from linkforge_compile.diagnostics.codes.names import (
 )
 from linkforge_compile.diagnostics.codes.physics import NO_SIMULATOR_PLUGIN, UNRESOLVED_PACKAGE
 from linkforge_compile.diagnostics.entry_fixes import add_entry
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.gazebo import GazeboPlugin
-    from linkforge_compile.core.part import Part
-    from linkforge_compile.source import Span
-
+from linkforge_compile.source import Span
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_/~{}]")
 _SUBSTITUTION = re.compile(r"\{[A-Za-z_][A-Za-z0-9_]*\}")

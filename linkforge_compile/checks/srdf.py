@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.groups import LinkSets
 from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
@@ -12,6 +11,8 @@ from linkforge_compile.checks.names import Reference, notes_at, own_positions, r
 from linkforge_compile.checks.state_order import group_of, names_in_order, report_states_in_other_order
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import GroupState, VirtualJoint
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.model import (
     ENABLED_ANYWAY,
@@ -32,11 +33,6 @@ from linkforge_compile.diagnostics.fix import Fix
 from linkforge_compile.diagnostics.grouping import SHOWN, join_names
 from linkforge_compile.source import Key, Span
 from linkforge_compile.units import WIDEST_ANGLE
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import GroupState, VirtualJoint
-    from linkforge_compile.core.models.srdf_collisions import CollisionPair
-
 
 VALUES_IN_A_STATE: dict[str, tuple[int, str]] = {
     JointType.FIXED: (0, "no value"),

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.checks.names import Reference
+from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import UNKNOWN_GROUP
 from linkforge_compile.diagnostics.entry_fixes import exchange
 from linkforge_compile.diagnostics.fix import Fix
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.srdf import GroupState
 
 
 def group_of(state: GroupState) -> Reference:

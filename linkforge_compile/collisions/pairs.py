@@ -6,14 +6,11 @@ from collections import defaultdict
 from collections.abc import Iterator
 from enum import StrEnum
 from itertools import combinations
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.collisions.scene import Scene
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf_collisions import CollisionPair
-
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf_collisions import CollisionPair
 
 Pair: TypeAlias = tuple[int, int]
 """The places of two bodies in their scene, in ascending order."""

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, Protocol, TypeVar
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.models.ros2_control import Interface
-from linkforge_compile.core.part import Element, Inside
-from linkforge_compile.source import SourceFile
+from linkforge_compile.core.part import Element, FreePart, Inside
+from linkforge_compile.source import SourceFile, SourceRef
 from linkforge_compile.syntax import YamlEntry, YamlList, YamlMap, YamlNode, YamlScalar, word_value
 from linkforge_compile.units import Dimension, number_text
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.part import FreePart
-    from linkforge_compile.source import SourceRef
 
 Node = TypeVar("Node", bound=YamlNode)
 

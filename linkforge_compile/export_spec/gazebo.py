@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.gazebo import GazeboElement
 from linkforge_compile.core.models.link import PHYSICS_TAGS, LinkPhysics
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.part import FreePart
 from linkforge_compile.export_spec.builder import SpecBuilder
 from linkforge_compile.export_spec.elements import export_fields, export_plugin
 from linkforge_compile.syntax import YamlMap, YamlNode, scalar_value
 from linkforge_compile.units import is_in_full, number_text
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.part import FreePart
 
 
 class GazeboPlaces(NamedTuple):

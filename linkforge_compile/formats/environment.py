@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from traceback import walk_tb
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import jinja2
+import yaml
 from jinja2 import (
     BaseLoader,
     Environment,
@@ -29,10 +30,6 @@ from linkforge_compile.core.models.geometry import Color, Transform, Vector3
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, spelled
 from linkforge_compile.resources import compiled_templates_folder, templates_folder
 from linkforge_compile.units import number_text
-
-if TYPE_CHECKING:
-    import yaml
-
 
 _MADE_BY = "jinja2.txt"
 """The file in the folder of compiled templates that names the version of Jinja2 that compiled them."""

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down, walk_up
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
-from linkforge_compile.core.models.srdf import VirtualJointType
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf import Chain, PlanningGroup
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import Chain, PlanningGroup, VirtualJointType
 
 
 def actuated_joints(robot: Robot) -> tuple[Joint, ...]:

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_depth_first, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.models.robot import Robot
-
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
 
 WORLD = "world"
 """The body that simulators have by themselves; a root link of this name is that body."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import field_specs
 from linkforge_compile.core.models.geometry import Material, Transform
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Inertial, Link, Visual
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.transmission import Transmission
 from linkforge_compile.core.part import Inside, attribute_pairs
@@ -27,10 +27,7 @@ from linkforge_compile.formats.parts import Doubtful, Held, Part, unwritable_raw
 from linkforge_compile.formats.raw import well_formed_elements
 from linkforge_compile.formats.xml_document import InsideError
 from linkforge_compile.source import Key, SourceRef, Span
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source.xml_tree import XmlElement
+from linkforge_compile.source.xml_tree import XmlElement
 
 
 def check_texts(robot: Robot, doubtful: Doubtful) -> Iterator[Diagnostic]:

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.exceptions import FieldPath
 from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.part import attribute_pairs
 from linkforge_compile.formats.element import Extended, place_of_attribute, raw_texts
 from linkforge_compile.formats.kinematic_tree import leader_of
+from linkforge_compile.formats.parts import Held
 from linkforge_compile.source import SourceRef
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.parts import Held
 
 
 class Loss(NamedTuple):

@@ -8,12 +8,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from linkforge_compile.formats.source_map import SourceMap
-    from linkforge_compile.source import SourceFile, Span
-    from linkforge_compile.source.provenance import Provenance
+from linkforge_compile.formats.source_map import SourceMap
+from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source.provenance import Provenance
 
 VERSION = 1
 """Of the format; a reader refuses any other."""

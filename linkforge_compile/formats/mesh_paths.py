@@ -5,14 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.geometry import Material, Mesh
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.roots import exists
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-
 
 _PACKAGE = "package://"
 

@@ -7,11 +7,12 @@ from dataclasses import replace
 from functools import cache, partial
 from operator import attrgetter
 from types import NoneType
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.exceptions import RobotGeneratorError
 from linkforge_compile.core.fields import Number, Vector, field_specs
 from linkforge_compile.core.models.link import Link, LinkPhysics
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.part import Part as BasePart
 from linkforge_compile.core.part import WithExtras, attribute_pairs
@@ -26,10 +27,6 @@ from linkforge_compile.formats.element import (
 )
 from linkforge_compile.formats.xml_text import RawXmlError, is_writable, require_writable
 from linkforge_compile.source import Key, SourceRef
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-
 
 Part: TypeAlias = WithExtras | Link | Interface
 """What becomes an XML element, and may hold what no field says."""

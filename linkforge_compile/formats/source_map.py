@@ -13,13 +13,11 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.formats.xml_text import RESERVED
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.provenance import Kind, Provenance, outward, written_at
-
-if TYPE_CHECKING:
-    from linkforge_compile.source import SourceRef, Span
 
 
 class Segment(NamedTuple):

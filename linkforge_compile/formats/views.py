@@ -6,15 +6,13 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from operator import attrgetter
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from linkforge_compile.core.fields import Child, Parameters, Spec, Text, field_specs
 from linkforge_compile.core.part import Element
 from linkforge_compile.formats.element import attributes_of, elements, leaf, leaf_at, parameter_elements, placed
 from linkforge_compile.formats.xml_text import NOTHING, spelled
-
-if TYPE_CHECKING:
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef
 
 
 class View(SimpleNamespace):

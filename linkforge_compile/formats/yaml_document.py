@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
-from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.formats.format import Document, Format, Rendering, Templates
 from linkforge_compile.formats.source_map import Origins, Segment, SourceMap, recording, split_origins
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 
 def render_yaml(format_: Format, template: str, robot: Robot, rendering: Rendering, name: str = "") -> Document:

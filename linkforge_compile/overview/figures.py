@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.poses import Pose
 from linkforge_compile.formats.groups import joints_by_group
 from linkforge_compile.formats.mesh_paths import meshes_of
 from linkforge_compile.overview.extent import Extent, Reach, farthest, measure_extent, reaches_from, zero_poses
@@ -14,10 +16,6 @@ from linkforge_compile.overview.graph import module_boxes, walk_boxes
 from linkforge_compile.overview.tree import tree_rows
 from linkforge_compile.shape_files import ShapeFiles
 from linkforge_compile.source.characters import UnreadableError
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.poses import Pose
 
 
 class Mass(NamedTuple):

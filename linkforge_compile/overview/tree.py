@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from linkforge_compile.core.models.geometry import Vector3
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_depth_first
 from linkforge_compile.core.models.joint import Joint
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.geometry import Vector3
-    from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.robot import Robot
 
 
 class TreeRow(NamedTuple):

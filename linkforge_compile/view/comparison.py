@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.compare import Difference, Kind, RemovedName, removed_parts
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.view.files import MAX_ALL_BYTES, RobotFiles, collect_files
 from linkforge_compile.view.scene import Scene, SceneDifference, SceneLink, make_scene
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 _STRENGTH = (Kind.CHANGED, Kind.RENAMED, Kind.MOVED, Kind.ADDED, Kind.REMOVED)
 """Of several kinds of differences of a link, the last one here is shown."""

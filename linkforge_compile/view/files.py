@@ -10,21 +10,19 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.meshes import IS_LFS_POINTER, LFS_POINTER
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.link import Visual
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.formats.mesh_paths import mesh_paths, places_of_files, texture_paths
 from linkforge_compile.shape_files import ShapeFiles
+from linkforge_compile.source import SourceRef, Span
 from linkforge_compile.source.characters import UnreadableError
 from linkforge_compile.source.read_file import TooLargeError, read_bytes
 from linkforge_compile.view.named_files import KINDS, MESHES, TEXTURES, named_files
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.source import SourceRef, Span
 
 MAX_BYTES = 128 * 1024 * 1024
 """The largest file that is shown."""

@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from enum import Enum
 from pathlib import Path
 from threading import Condition
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.analysis import Settings, analyse_path
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.reports import Selection
 from linkforge_compile.expand import CliArgument
@@ -20,9 +21,6 @@ from linkforge_compile.roots import identity
 from linkforge_compile.view.files import RobotFiles, collect_files, not_reported
 from linkforge_compile.view.scene import Scene, SceneView, make_scene
 from linkforge_compile.view.updates import Update, problems_of, shown_settings, values_of
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 PAGE = "<viewer page>"
 """The place of a value that was set in the page, in diagnostics."""

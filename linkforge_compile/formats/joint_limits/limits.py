@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.joint import JointLimits
+from linkforge_compile.core.models.joint import Joint, JointLimits
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.formats import NO_LIMIT_FOR_MOVEIT, NO_MOVING_JOINT
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
 from linkforge_compile.formats.source_map import origin_of
 from linkforge_compile.formats.views import View
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
 
 
 def missing_joints(robot: Robot) -> Diagnostic | None:

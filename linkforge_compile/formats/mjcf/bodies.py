@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.core.constants import (
     DEFAULT_CAMERA_FAR,
@@ -16,6 +16,7 @@ from linkforge_compile.core.constants import (
 from linkforge_compile.core.models.geometry import IDENTITY, Box, Capsule, Cylinder, Geometry, Mesh, Sphere, Transform
 from linkforge_compile.core.models.joint import JointType
 from linkforge_compile.core.models.link import Collision, InertiaTensor, Link, Visual
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import (
     CameraInfo,
     ForceTorqueDirection,
@@ -32,10 +33,6 @@ from linkforge_compile.formats.mjcf.contacts import sliding_frictions
 from linkforge_compile.formats.mjcf.joints import JointClass, free_joint_name, joint_elements
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-
 
 NO_OFFSET, NO_TURN = IDENTITY.xyz, IDENTITY.rpy
 

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.source import SourceRef
 from linkforge_compile.units import finite_number
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source import SourceRef
 
 Pair: TypeAlias = "tuple[str, str, SourceRef | None]"
 """Two links that do not collide, and where that is written."""

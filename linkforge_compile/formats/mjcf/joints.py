@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.geometry import IDENTITY, Vector3
 from linkforge_compile.core.models.joint import AXES, SINGLE_AXIS, Joint, JointLimits, JointType
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, leader_of
 from linkforge_compile.formats.xml_text import Spellable, Xml
+from linkforge_compile.source import SourceRef
 from linkforge_compile.units import finite_number
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source import SourceRef
-
 
 Values: TypeAlias = Mapping[str, Spellable | None]
 """Attributes by name; None for none."""

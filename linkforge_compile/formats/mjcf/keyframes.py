@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.models.srdf import VirtualJointType
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
 from linkforge_compile.formats.mjcf.joints import Drive, drives, range_of
 from linkforge_compile.formats.xml_text import Xml
+from linkforge_compile.source import SourceRef
 from linkforge_compile.units import finite_number
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.source import SourceRef
 
 _AT_ORIGIN = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 

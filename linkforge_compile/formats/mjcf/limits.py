@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.constants import DEFAULT_UPDATE_RATE
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement, property_path
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
-from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
 from linkforge_compile.core.models.srdf import VirtualJointType
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.simulators import (
     BASE_STAYS_FIXED,
     FOR_OTHER_PROGRAMS,
@@ -52,12 +54,6 @@ from linkforge_compile.formats.mjcf.meshes import mesh_files
 from linkforge_compile.formats.parts import doubtful_parts_in, doubtful_parts_of_urdf
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import finite_number
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-    from linkforge_compile.diagnostics import Diagnostic
-
 
 MAX_DEPTH = 490
 """MuJoCo's reader of XML refuses elements that are nested deeper than 500."""

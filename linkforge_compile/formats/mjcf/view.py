@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkforge_compile.core.models.joint import SINGLE_AXIS
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import KinematicTree
 from linkforge_compile.formats.mjcf.bodies import body_views, sensor_elements, world_elements
@@ -20,9 +19,6 @@ from linkforge_compile.formats.mjcf.joints import (
 from linkforge_compile.formats.mjcf.keyframes import key_elements
 from linkforge_compile.formats.mjcf.meshes import mesh_assets
 from linkforge_compile.formats.views import View
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 
 def robot_view(robot: Robot, *, is_free: bool) -> View:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.core.models.controller_kinds import KINDS, OTHER_CLASSES, STATES, kind_of, lift_parameters
 from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.collisions import ADJACENT_CHECKED
 from linkforge_compile.diagnostics.codes.formats import (
     NO_GROUP_TO_PLAN,
@@ -27,11 +29,6 @@ from linkforge_compile.formats.ros2_controllers.complete import (
     misspelled_class,
 )
 from linkforge_compile.source import Key
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.controller import Controller
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.diagnostics import Diagnostic
 
 
 def missing_groups(robot: Robot) -> Diagnostic | None:

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
+from linkforge_compile.core.models.controller import Controller
 from linkforge_compile.core.models.controller_kinds import EFFORT_GRIPPER, GRIPPER, OLD_GRIPPER, TRAJECTORY
-from linkforge_compile.core.models.joint import JointType
-from linkforge_compile.core.models.ros2_control import Interface
+from linkforge_compile.core.models.joint import Joint, JointType
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Interface, Ros2ControlJoint
+from linkforge_compile.core.models.srdf import PlanningGroup
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.groups import chain_groups
 from linkforge_compile.formats.ros2_controllers.complete import commanded_joints, complete_controllers
 from linkforge_compile.formats.source_map import origin_of
 from linkforge_compile.formats.views import View
 from linkforge_compile.units import finite_number
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.controller import Controller
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-    from linkforge_compile.core.models.srdf import PlanningGroup
 
 _SOLVER = {
     "kinematics_solver": "kdl_kinematics_plugin/KDLKinematicsPlugin",

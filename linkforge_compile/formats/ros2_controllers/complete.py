@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.controller import (
     DEFAULT_BROADCASTER,
@@ -25,18 +25,15 @@ from linkforge_compile.core.models.controller_kinds import (
     lift_parameters,
     path_of_field,
 )
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.formats import NO_HARDWARE
 from linkforge_compile.diagnostics.enumerations import listed
 from linkforge_compile.diagnostics.suggest import nearest
 from linkforge_compile.formats.groups import actuated_joints, faulty_groups, joints_by_group
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.source import SourceRef
-
+from linkforge_compile.source import SourceRef
 
 _COMMANDS = ("position", "velocity", "effort")
 _STATES = ("position", "velocity")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER
+from linkforge_compile.core.models.controller import JOINT_FIELDS, MANAGER, Controller
 from linkforge_compile.core.models.controller_kinds import (
     KINDS,
     PARAMETERS_OF_FIELDS,
@@ -17,8 +17,10 @@ from linkforge_compile.core.models.controller_kinds import (
     stated_field,
     written_names,
 )
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
 from linkforge_compile.core.sourced_text import place_of_parameter, place_of_parameter_name
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import (
     CONTROLLER_LACKS,
     LIST_OF_SEVERAL_TYPES,
@@ -43,12 +45,6 @@ from linkforge_compile.formats.ros2_controllers.complete import (
 from linkforge_compile.formats.ros2_controllers.parameters import PARAMETERS, find_misfits
 from linkforge_compile.formats.ros2_controllers.view import typed_parameters
 from linkforge_compile.source import Key
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.controller import Controller
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-    from linkforge_compile.diagnostics import Diagnostic
 
 
 def check_controllers(robot: Robot) -> Iterator[Diagnostic]:

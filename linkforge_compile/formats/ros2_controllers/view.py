@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import TYPE_CHECKING
 
-from linkforge_compile.core.models.controller import MANAGER
+from linkforge_compile.core.models.controller import MANAGER, Controller
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.sourced_text import place_of_parameter
 from linkforge_compile.formats.element import placed
-from linkforge_compile.formats.ros2_controllers.complete import completed_controllers
-from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, convert, names_below, type_of
+from linkforge_compile.formats.ros2_controllers.complete import Completed, completed_controllers
+from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, Type, convert, names_below, type_of
 from linkforge_compile.formats.views import View
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.controller import Controller
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.formats.ros2_controllers.complete import Completed
-    from linkforge_compile.formats.ros2_controllers.parameters import Type
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef
 
 UPDATE_RATE = 100
 """The rate of a controller manager [Hz] that is not stated; its own default."""

@@ -7,21 +7,17 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.graph import child_joints, parent_joints, walk_down
 from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
+from linkforge_compile.core.models.link import Link
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
 from linkforge_compile.core.poses import NO_TURN, Pose
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
 from linkforge_compile.formats.unique_name import unique_name
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.link import Link
-    from linkforge_compile.core.models.robot import Robot
-
 
 MODEL = "__model__"
 """The frame of the model, where its root link is."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Set
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement
 from linkforge_compile.core.models.joint import Joint, JointType
@@ -12,6 +11,7 @@ from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission
+from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.simulators import (
     CLASSIC_IN_SDF,
     FREE_IN_SDF,
@@ -50,10 +50,7 @@ from linkforge_compile.formats.sdf.settings import (
     replaced_settings,
 )
 from linkforge_compile.formats.sdf.view import WITH_MIMIC, SdfChoices, sdf_version
-
-if TYPE_CHECKING:
-    from linkforge_compile.diagnostics import Diagnostic
-    from linkforge_compile.source import SourceRef
+from linkforge_compile.source import SourceRef
 
 
 def missing_body(robot: Robot) -> Diagnostic | None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.constants import LEAST_MASS, MIN_REASONABLE_INERTIA
 from linkforge_compile.core.models.geometry import Box, Capsule, Cylinder, Geometry, Material, Mesh, Sphere
 from linkforge_compile.core.models.joint import AXES, Joint, JointType
 from linkforge_compile.core.models.link import Inertial, InertiaTensor, Link, Visual
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.moments import possible_inertia, principal_moments
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import WORLD
@@ -28,9 +28,6 @@ from linkforge_compile.formats.sdf.settings import (
 )
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 
 class Links:

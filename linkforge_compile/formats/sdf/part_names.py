@@ -5,16 +5,14 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile.core.models.link import Collision, Link, Visual
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import SensorType
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, Settings
 from linkforge_compile.formats.unique_name import unique_name
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 _MERGED = "_fixed_joint_lump__"
 """Before the name of a shape where Gazebo's conversion of a URDF merges its link into another."""

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
+from linkforge_compile.core.exceptions import FieldPath
 from linkforge_compile.core.fields import tags_with_text
 from linkforge_compile.core.models.gazebo import KEEP_FIXED_JOINT, GazeboElement, property_path
 from linkforge_compile.core.models.link import PHYSICS_TAGS
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.part import FreePart
 from linkforge_compile.formats.element import parameter_elements, raw_texts
 from linkforge_compile.formats.raw import element_texts, plain_text, well_formed_elements
 from linkforge_compile.formats.sdf.elements import parent, text
 from linkforge_compile.formats.xml_text import NOTHING, Xml, spelled
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.exceptions import FieldPath
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.part import FreePart
-    from linkforge_compile.source import SourceRef
-    from linkforge_compile.source.xml_tree import XmlElement
+from linkforge_compile.source import SourceRef
+from linkforge_compile.source.xml_tree import XmlElement
 
 
 class Setting(NamedTuple):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.formats.element import attributes_at, placed
 from linkforge_compile.formats.kinematic_tree import leader_of
@@ -19,9 +20,6 @@ from linkforge_compile.formats.urdf.gazebo import plugin_view, sensor_view
 from linkforge_compile.formats.urdf.view import UrdfViews
 from linkforge_compile.formats.views import View
 from linkforge_compile.formats.xml_text import NOTHING, Xml
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 WITH_MIMIC = "1.11"
 """The first version of SDF with mimic joints, which Gazebo Harmonic reads."""

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.formats.element import attributes_of, placed
 from linkforge_compile.formats.source_map import origin_of
 from linkforge_compile.formats.views import View, Views
 from linkforge_compile.formats.xml_text import Xml, spelled
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 
 class SrdfViews(Views):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.fields import tags_with_text
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Transform
 from linkforge_compile.core.models.link import USUAL_PHYSICS, Link, LinkPhysics
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise, SensorType
 from linkforge_compile.core.part import Element
 from linkforge_compile.formats.element import (
@@ -22,9 +22,6 @@ from linkforge_compile.formats.element import (
 from linkforge_compile.formats.source_map import active_origins
 from linkforge_compile.formats.views import View, Views
 from linkforge_compile.formats.xml_text import NOTHING, Xml, spelled
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
 
 # Gazebo Sim has no lidar on the CPU and refuses one with a warning; a type that is not listed keeps its name.
 _TYPES: Mapping[str, Mapping[SensorType, str]] = {

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile.core.models.gazebo import BLOCK_THAT_KEEPS_JOINT, keeps_fixed_joint
-from linkforge_compile.core.models.geometry import Transform
+from linkforge_compile.core.models.geometry import Material, Transform
 from linkforge_compile.core.models.joint import JointType
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import Sensor, SensorType
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import (
@@ -28,10 +28,6 @@ from linkforge_compile.formats.parts import Held, doubtful_parts_of_urdf
 from linkforge_compile.formats.urdf.view import capsules, stated_version
 from linkforge_compile.formats.xml_text import spelled
 from linkforge_compile.source import Key
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.geometry import Material
-    from linkforge_compile.core.models.robot import Robot
 
 _READ_VERSIONS = ("1.0", "1.1", "1.2")
 

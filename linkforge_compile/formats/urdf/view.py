@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from linkforge_compile.core.models.gazebo import GazeboElement, GazeboPlugin
 from linkforge_compile.core.models.geometry import Capsule, Color, Mesh, Transform, Vector3
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.link import Collision, Link, Visual
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Interface
 from linkforge_compile.core.models.sensor import Sensor, SensorNoise
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
@@ -18,10 +19,6 @@ from linkforge_compile.formats.element import attributes, attributes_at, element
 from linkforge_compile.formats.urdf.gazebo import gazebo_view, noise_view, physics_views, plugin_view, sensor_view
 from linkforge_compile.formats.views import View, Views, named_texts
 from linkforge_compile.formats.xml_text import NOTHING, Xml
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.robot import Robot
-
 
 # The version of URDF that brought <capsule>; urdfdom reads one only in files that state it or a later one.
 _CAPSULE_VERSION = "1.1"
