@@ -18,7 +18,7 @@ from linkforge_compile.core.models.controller import (
 )
 from linkforge_compile.core.models.controller_kinds import lift_parameters, path_of_field
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.core.part import SourcedText
 from linkforge_compile.diagnostics import Diagnostic, UnresolvedNames
 from linkforge_compile.diagnostics.codes.names import (
     UNKNOWN_GROUP,

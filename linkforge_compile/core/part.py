@@ -20,7 +20,7 @@ from linkforge_compile.core.fields import (
     tuple_fields,
 )
 from linkforge_compile.core.naming import prefixed_topic
-from linkforge_compile.source import Sourced, SourceRef
+from linkforge_compile.source import Key, Sourced, SourceRef
 
 # The annotations of the model's classes are objects and not texts (`from __future__ import annotations`): the
 # constructor of a derived class repeats them in a module that lacks these names, and libraries read them there.
@@ -249,11 +249,12 @@ def frozen(value: object) -> object:
     return tuple(map(frozen, value)) if isinstance(value, list | tuple) else value
 
 
-class RawXml(str):
-    """A text of `extra_elements`, or the name of an attribute, with its `source`, None if it was not read.
+class SourcedText(str):
+    """A text with its `source`, None if it was not read: it compares, hashes and prints as that text.
 
-    It compares, hashes and prints as that text. Merging robots puts raw XML of several files into one list, so the
-    source of the list's owner would not do. The `source` of an attribute's name is the map that it is in.
+    Such are the texts of `extra_elements`, the names in `extra_attributes` and those in the parameters of a controller
+    manager: merging robots puts texts of several files into one, so the source of their owner would not do. That of the
+    name of an attribute is the map that it is in, that of the name of a parameter its value, with the name as `key`.
     """
 
     __slots__ = ("source",)
@@ -261,12 +262,29 @@ class RawXml(str):
     source: SourceRef | None
 
     def __new__(cls, text: str, source: SourceRef | None = None) -> Self:
-        raw = super().__new__(cls, text)
-        raw.source = source
-        return raw
+        sourced = super().__new__(cls, text)
+        sourced.source = source
+        return sourced
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.source)
 
 
-dump_like(RawXml, str)
+dump_like(SourcedText, str)
+
+
+def place_of_parameter(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the value at a path of a controller was written: an object, and the path from there."""
+    name = path[-1]
+    if isinstance(name, SourcedText) and name.source:
+        return (SourceRef(name.source.node, None, name.source.trail),)
+    return (source, *path)
+
+
+def place_of_parameter_name(source: SourceRef | None, *path: str) -> tuple[SourceRef | None, *tuple[str, ...]]:
+    """Return where the last name of a path itself was written."""
+    *outer, name = path
+    if isinstance(name, SourcedText) and name.source:
+        return (name.source,)
+    keys = (*outer, Key(name))
+    return (source, *keys)

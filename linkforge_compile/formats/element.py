@@ -11,7 +11,7 @@ from typing import Protocol
 
 from linkforge_compile.core.exceptions import FieldPath, RobotGeneratorError
 from linkforge_compile.core.fields import field_specs, number_fields
-from linkforge_compile.core.part import Element, Inside, RawXml, attribute_pairs
+from linkforge_compile.core.part import Element, Inside, SourcedText, attribute_pairs
 from linkforge_compile.formats.source_map import active_origins, origin_of
 from linkforge_compile.formats.xml_document import inside_text
 from linkforge_compile.formats.xml_text import (
@@ -130,7 +130,7 @@ def place_of_attribute(name: str, where: SourceRef | None) -> tuple[SourceRef | 
 
     Extra attributes of a robot may come from the files of its modules: such a name has a place of its own.
     """
-    return (name.source,) if isinstance(name, RawXml) else (where, "extra_attributes")
+    return (name.source,) if isinstance(name, SourcedText) else (where, "extra_attributes")
 
 
 def _quotable(value: Spellable) -> str:
@@ -220,7 +220,7 @@ def raw_texts(part: Extended, where: SourceRef | None) -> Iterator[tuple[str, So
     Raw XML of a robot may come from the files of its modules: such a text has a place of its own.
     """
     for number, text in enumerate(part.extra_elements):
-        yield (text, text.source, ()) if isinstance(text, RawXml) else (text, where, ("extra", number))
+        yield (text, text.source, ()) if isinstance(text, SourcedText) else (text, where, ("extra", number))
 
 
 def leaf_at(tag: str, source: SourceRef | None, *path: str, **stated: Spellable | None) -> Xml:

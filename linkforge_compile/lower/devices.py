@@ -21,8 +21,7 @@ from linkforge_compile.core.models.ros2_control import (
 )
 from linkforge_compile.core.models.sensor import INFO_FIELDS, MAY_LACK_INFO, Sensor, SensorType
 from linkforge_compile.core.models.transmission import Transmission, TransmissionActuator, TransmissionJoint
-from linkforge_compile.core.part import FreePart
-from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.core.part import FreePart, SourcedText
 from linkforge_compile.diagnostics import Note
 from linkforge_compile.diagnostics.codes.model import NOT_OF_MANAGER, TAG_TWICE
 from linkforge_compile.diagnostics.entry_fixes import leave_out, leave_out_entry

@@ -24,7 +24,7 @@ from linkforge_compile.core.fields import (
     key_fields,
 )
 from linkforge_compile.core.models.geometry import IDENTITY, Transform
-from linkforge_compile.core.part import Element, Inside, Part, RawXml
+from linkforge_compile.core.part import Element, Inside, Part, SourcedText
 from linkforge_compile.lower.fields import Fields
 from linkforge_compile.lower.free_parts import free_elements, free_texts, is_absent, texts_in, typed_data
 from linkforge_compile.lower.numbers import ANGLE, LENGTH, number_type
@@ -266,8 +266,10 @@ def outer_extras_of(fields: Fields) -> OuterExtras:
     attributes = fields.map("extra_attributes")
     texts = ((fields.text_at(node, "extra"), SourceRef(node, None, fields.trail)) for node in fields.items("extra"))
     return {
-        "extra_elements": tuple(RawXml(text, source) for text, source in texts if text and text.strip()),
-        "extra_attributes": tuple((RawXml(name, attributes.ref), text) for name, text in texts_in(attributes).items())
+        "extra_elements": tuple(SourcedText(text, source) for text, source in texts if text and text.strip()),
+        "extra_attributes": tuple(
+            (SourcedText(name, attributes.ref), text) for name, text in texts_in(attributes).items()
+        )
         if attributes
         else (),
     }

@@ -7,8 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 from linkforge_compile.core.models.controller import HARDWARE, MANAGER, kind_of_names, listed_names
-from linkforge_compile.core.part import FrozenMap
-from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.core.part import FrozenMap, SourcedText
 from linkforge_compile.diagnostics import Diagnostics, Note
 from linkforge_compile.diagnostics.codes.names import MODULES_DISAGREE
 

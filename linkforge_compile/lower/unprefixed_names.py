@@ -9,8 +9,7 @@ from typing import NamedTuple, TypeAlias
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2Control
-from linkforge_compile.core.part import FreePart
-from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.core.part import FreePart, SourcedText
 from linkforge_compile.diagnostics import Diagnostic
 from linkforge_compile.diagnostics.codes.model import (
     ABSOLUTE_TOPIC,

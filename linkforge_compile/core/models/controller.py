@@ -8,8 +8,7 @@ from typing import Annotated, Any, NamedTuple, Self
 
 from linkforge_compile.core.fields import Data, Name, Reference, Text
 from linkforge_compile.core.naming import require_not_blank
-from linkforge_compile.core.part import Element, FrozenMap, extras_last
-from linkforge_compile.core.sourced_text import SourcedText
+from linkforge_compile.core.part import Element, FrozenMap, SourcedText, extras_last
 
 HARDWARE, CONTROLLER = "ros2_control system", "controller"
 """What a name in the parameters is that of."""

@@ -19,7 +19,7 @@ from linkforge_compile.core.models.controller_kinds import (
 )
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
-from linkforge_compile.core.sourced_text import place_of_parameter, place_of_parameter_name
+from linkforge_compile.core.part import place_of_parameter, place_of_parameter_name
 from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import (
     CONTROLLER_LACKS,

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from linkforge_compile.core.models.controller import MANAGER, Controller
 from linkforge_compile.core.models.controller_kinds import kind_of, path_of_field
 from linkforge_compile.core.models.robot import Robot
-from linkforge_compile.core.sourced_text import place_of_parameter
+from linkforge_compile.core.part import place_of_parameter
 from linkforge_compile.formats.element import placed
 from linkforge_compile.formats.ros2_controllers.complete import Completed, completed_controllers
 from linkforge_compile.formats.ros2_controllers.parameters import ANY, PARAMETERS, Type, convert, names_below, type_of
