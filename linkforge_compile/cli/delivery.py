@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.build import Build, Output
@@ -13,9 +13,6 @@ from linkforge_compile.cli.reports import errors_of, format_diagnostics, print_s
 from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.diagnostics import Diagnostic
-
-if TYPE_CHECKING:
-    import argparse
 
 _LISTED = 3
 """The most files up to date of which each has a line."""

@@ -5,12 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
 
-from linkforge_compile.compare import removed_parts
-
-if TYPE_CHECKING:
-    from linkforge_compile.compare import Difference, RemovedName
+from linkforge_compile.compare import Difference, RemovedName, removed_parts
 
 _DEPTH = {"semantic": 3}
 """The length of the path to a part that is printed on a line of its own, by section; 2 in other sections."""

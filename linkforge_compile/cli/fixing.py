@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.specs import count
 from linkforge_compile.fixing import Report, apply_safe_fixes, files_to_fix
 from linkforge_compile.roots import identity, top_of
 from linkforge_compile.source.characters import on_one_line
-
-if TYPE_CHECKING:
-    import argparse
 
 _Report = TypeVar("_Report", bound=Report)
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, UsageError
 from linkforge_compile.cli.not_shown import report_not_shown
@@ -24,17 +24,13 @@ from linkforge_compile.cli.reports import (
 )
 from linkforge_compile.cli.specs import count
 from linkforge_compile.cli.watching import Watched, repeat_on_changes
+from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.roots import is_file
 from linkforge_compile.view.files import not_reported
 from linkforge_compile.view.html import NoPageError, html_of
+from linkforge_compile.view.scene import SceneView
 from linkforge_compile.view.server import ViewServer
 from linkforge_compile.view.session import Session, State
-
-if TYPE_CHECKING:
-    import argparse
-
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.view.scene import SceneView
 
 
 def view_live(

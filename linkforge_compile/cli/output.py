@@ -5,6 +5,7 @@ A reader sees the old file or the new one, never a part of one.
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import sys
@@ -13,17 +14,13 @@ from contextlib import ExitStack, contextmanager, suppress
 from errno import EBUSY, EISDIR
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from linkforge_compile.atomic_file import new_file
 from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.reports import print_status
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.roots import Roots, exists, identity, real_path
-
-if TYPE_CHECKING:
-    import argparse
-
 
 Content: TypeAlias = str | bytes
 """What a file holds; a text is written in UTF-8."""

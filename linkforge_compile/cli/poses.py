@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import UsageError
+from linkforge_compile.core.models.joint import Joint
+from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics.grouping import join_names
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.formats.groups import actuated_joints
-
-if TYPE_CHECKING:
-    from linkforge_compile.core.models.joint import Joint
-    from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.core.models.srdf import GroupState
 
 
 def states_by_name(robot: Robot) -> dict[str, GroupState]:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli.reports import PROGRESS_INTERVAL, print_status, write_to_stderr
-
-if TYPE_CHECKING:
-    import argparse
 
 WIDTH = 30
 """Characters of the bar."""

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile import formats
 from linkforge_compile.cli import UsageError
 from linkforge_compile.diagnostics.enumerations import alternatives
 from linkforge_compile.file_names import stem_of
-
-if TYPE_CHECKING:
-    import argparse
 
 _SPEC_ENDINGS = (".yaml", ".yml")
 _STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 import gc
 import time
 from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn
 
 from linkforge_compile.cli import UsageError
 from linkforge_compile.cli.reports import print_line, print_status
 from linkforge_compile.file_watcher import FileWatcher
-
-if TYPE_CHECKING:
-    import argparse
 
 _POLL_INTERVAL = 0.3
 """Time between two polls of the files [s]."""

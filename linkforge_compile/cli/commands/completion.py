@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from linkforge_compile.cli import OK
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 The shell then completes commands, options and their values, specs, NAME:=VALUE with the parameters of the spec on the

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from linkforge_compile._version import __version__
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
@@ -21,9 +22,6 @@ from linkforge_compile.paths import (
     split_package_path,
 )
 from linkforge_compile.roots import ANYWHERE, exists
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 Without arguments, it prints the versions of linkforge and its dependencies, the optional extras, the environment

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK
 from linkforge_compile.cli.options import add_spec_and_values, add_spec_options
@@ -11,9 +11,6 @@ from linkforge_compile.cli.reports import add_report_options
 from linkforge_compile.cli.specs import compile_one
 from linkforge_compile.cli.targets import file_to_write
 from linkforge_compile.source.characters import on_one_line
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 The result has no modules, parameters, expressions, loops or defaults, and compiles to the same URDF and SRDF. A comment

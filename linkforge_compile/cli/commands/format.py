@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import STDIN, add_outside_option, read_stdin
 from linkforge_compile.cli.output import unified, write_changed, write_to_stdout
 from linkforge_compile.cli.reports import add_report_options, print_failure, print_status, report
 from linkforge_compile.cli.specs import count, find_specs_of
+from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.roots import exists, is_file
-
-if TYPE_CHECKING:
-    import argparse
-
-    from linkforge_compile.diagnostics import Diagnostics
-    from linkforge_compile.source import SourceFile
+from linkforge_compile.source import SourceFile
 
 _EXAMPLES = """\
 The format has two spaces per level, lists indented below their key, {a: 1, b: 2} and [1, 2], two or more spaces before

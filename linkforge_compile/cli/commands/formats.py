@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from linkforge_compile import formats
 from linkforge_compile.cli import OK, UsageError
-
-if TYPE_CHECKING:
-    import argparse
-
-    from linkforge_compile.formats import Format
+from linkforge_compile.formats import Format
 
 _EXAMPLES = """\
 Formats marked `default` are written to a folder unless others are requested with --format. Parts that a format omits

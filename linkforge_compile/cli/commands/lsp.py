@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
+import argparse
 import gc
 import os
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from linkforge_compile.cli import OK, UsageError
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 Editors start it; docs/editors.md describes the set-up of each. It communicates over standard input and output, or with

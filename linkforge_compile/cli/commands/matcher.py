@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import argparse
 
 from linkforge_compile.cli import OK
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 It matches the text output of every command and build step of linkforge. If `linkforge check` is a separate step, use

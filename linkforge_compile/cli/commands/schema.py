@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import posixpath
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.options import add_package_option, packages_of
 from linkforge_compile.cli.reports import print_line
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 For VS Code and every editor with yaml-language-server, put this line at the top of a spec in the folder of the schema:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import OK, UsageError
 from linkforge_compile.cli.build import BuildRequest, compile_request, render_request
@@ -15,9 +15,6 @@ from linkforge_compile.cli.reports import print_failure
 from linkforge_compile.cli.watching import Watched, repeat_on_changes
 from linkforge_compile.file_watcher import FileWatcher
 from linkforge_compile.roots import identity
-
-if TYPE_CHECKING:
-    import argparse
 
 _EXAMPLES = """\
 Errors are reported, and the old output remains until the next change compiles without errors. Press Ctrl-C to stop it.
