@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterator, Mapping
 
-from linkforge_compile.checks.groups import LinkSets
+from linkforge_compile.checks.groups import LinkSets, group_of, names_in_order, report_states_in_other_order
 from linkforge_compile.checks.joints import ROUNDING, in_unit, is_known, missed_range, unit_in
 from linkforge_compile.checks.names import Reference, notes_at, own_positions, report_unknown
-from linkforge_compile.checks.state_order import group_of, names_in_order, report_states_in_other_order
 from linkforge_compile.core.models.joint import Joint, JointType
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import GroupState, VirtualJoint

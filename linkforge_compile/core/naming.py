@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
+from itertools import chain, count
 from typing import Protocol, overload
 
 from linkforge_compile.core.exceptions import FieldPath, RobotValidationError, ValidationErrorCode
@@ -118,3 +119,9 @@ def require_unique_names(named: Iterable[Named], owner: str, target: str, field:
                 field=(field, thing.name),
             )
         seen.add(thing.name)
+
+
+def unique_name(name: str, taken: Container[str]) -> str:
+    """Return a name, or with the lowest number from 2 after it that makes it one that is not taken."""
+    numbered = (f"{name}_{number}" for number in count(2))
+    return next(one for one in chain([name], numbered) if one not in taken)

@@ -93,7 +93,7 @@ def render_documents(robot: Robot, templates: TemplateFolder, options: Options, 
         ValueError: for a value of an option that is not one of its choices.
 
     """
-    from linkforge_compile.formats.deferred_view import DeferredView
+    from linkforge_compile.formats.environment import DeferredView
 
     require_options(options)
     views = {one.name: DeferredView(partial(one.view, robot, options)) for one in FORMATS}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any
@@ -24,7 +24,7 @@ from jinja2 import (
     pass_eval_context,
 )
 from jinja2.nodes import EvalContext
-from jinja2.runtime import Undefined
+from jinja2.runtime import Context, Undefined
 
 from linkforge_compile.core.models.geometry import Color, Transform, Vector3
 from linkforge_compile.formats.xml_text import NOTHING, Spellable, Xml, escaped, spelled
@@ -273,3 +273,22 @@ def _reason(value: object) -> str:
     if isinstance(value, Iterable) and not hasattr(value, "_fields"):
         return f"{kind_of(value)} has no text; write '| list' or '| join(\", \")'"
     return f"{kind_of(value)} has no text; write one of its fields{', such as its name' * hasattr(value, 'name')}"
+
+
+class DeferredView:
+    """The view of a format, as a value in the context of templates."""
+
+    def __init__(self, make: Callable[[], object]) -> None:
+        self._make = make
+
+    @cached_property
+    def view(self) -> object:
+        return self._make()
+
+
+class ViewContext(Context):
+    """Resolves the names that templates use, by the hook that Jinja2 has for this."""
+
+    def resolve_or_missing(self, key: str) -> object:
+        value = super().resolve_or_missing(key)
+        return value.view if isinstance(value, DeferredView) else value

@@ -28,8 +28,7 @@ from jinja2.visitor import NodeTransformer
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.named_table import NamedTable
 from linkforge_compile.diagnostics.suggest import did_you_mean
-from linkforge_compile.formats.deferred_view import ViewContext
-from linkforge_compile.formats.environment import FILTERS, OPTIONS, finalize, kind_of, require_text
+from linkforge_compile.formats.environment import FILTERS, OPTIONS, ViewContext, finalize, kind_of, require_text
 from linkforge_compile.limits import Budget, Limit
 
 _READING = ("get", "has", "find", "is", "to", "volume")

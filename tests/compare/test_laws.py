@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from linkforge_compile.compare import compare, removed_public_names
 from linkforge_compile.compare.context import CompareContext
-from linkforge_compile.compare.walk import walk
+from linkforge_compile.compare.robots import walk
 from linkforge_compile.core import Robot, models
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.geometry import Color, Material, Sphere, Vector3

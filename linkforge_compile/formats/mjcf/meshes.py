@@ -10,9 +10,9 @@ from typing import NamedTuple
 from linkforge_compile.core.meshes.stl import HEADER, TRIANGLE
 from linkforge_compile.core.models.geometry import Mesh
 from linkforge_compile.core.models.robot import Robot
+from linkforge_compile.core.naming import unique_name
 from linkforge_compile.formats.element import leaf_at
 from linkforge_compile.formats.mesh_paths import is_relative, mesh_paths, reason_not_found
-from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import Xml
 
 _ENDINGS = (".stl", ".obj", ".msh")

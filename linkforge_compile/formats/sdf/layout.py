@@ -13,11 +13,11 @@ from linkforge_compile.core.models.joint import SINGLE_AXIS, Joint, JointType
 from linkforge_compile.core.models.link import Link
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import ForceTorqueFrame, SensorType
+from linkforge_compile.core.naming import unique_name
 from linkforge_compile.core.poses import NO_TURN, Pose
 from linkforge_compile.formats.kinematic_tree import WORLD, fixed_joints
 from linkforge_compile.formats.sdf.raw_sensors import frames_of_forces
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, OF_FRAME, Settings, settings_by_reference
-from linkforge_compile.formats.unique_name import unique_name
 
 MODEL = "__model__"
 """The frame of the model, where its root link is."""

@@ -10,12 +10,12 @@ from typing import TypeAlias
 from linkforge_compile.core.models.joint import Joint
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.ros2_control import Ros2ControlJoint
+from linkforge_compile.core.naming import unique_name
 from linkforge_compile.formats.element import attributes_at
 from linkforge_compile.formats.kinematic_tree import WORLD, leader_of
 from linkforge_compile.formats.sdf.elements import pose, pose_between, pose_of_frame
 from linkforge_compile.formats.sdf.layout import MODEL, Layout, relative_pose
 from linkforge_compile.formats.source_map import origin_of_use
-from linkforge_compile.formats.unique_name import unique_name
 from linkforge_compile.formats.xml_text import NOTHING, Xml
 
 SEPARATOR = "::"

@@ -10,9 +10,9 @@ from typing import NamedTuple
 from linkforge_compile.core.models.link import Collision, Link, Visual
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.sensor import SensorType
+from linkforge_compile.core.naming import unique_name
 from linkforge_compile.formats.sdf.layout import Layout
 from linkforge_compile.formats.sdf.settings import LINK_ELEMENTS, Settings
-from linkforge_compile.formats.unique_name import unique_name
 
 _MERGED = "_fixed_joint_lump__"
 """Before the name of a shape where Gazebo's conversion of a URDF merges its link into another."""
