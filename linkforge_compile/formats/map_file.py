@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from linkforge_compile.formats.source_map import SourceMap
 from linkforge_compile.source import SourceFile, Span
@@ -135,67 +135,44 @@ def read_map(text: str) -> MapFile:
 
     """
     try:
-        whole = _object(json.loads(text))
-        if (version := whole.get("version")) != VERSION:
-            raise NoMapError(f"it is of version {version}, and version {VERSION} is read")
-        sources = tuple(_source(_object(item)) for item in _list(whole["sources"]))
-        trails = tuple(
-            tuple(
-                (how, _stretch(_list(numbers), sources))
-                for step in _list(steps)
-                for how, numbers in _object(step).items()
-            )
-            for steps in _list(whole["trails"])
-        )
-        mappings = {
-            int(line): tuple(_segment(_list(row), sources, len(trails)) for row in _list(rows))
-            for line, rows in _object(whole["mappings"]).items()
-        }
-        return MapFile(_text(whole["sha256"]), sources, trails, mappings)
+        match json.loads(text):
+            case {"version": version} if version != VERSION:
+                raise NoMapError(f"it is of version {version}, and version {VERSION} is read")
+            case {"sha256": str(sha256), "sources": sources, "trails": trails, "mappings": mappings}:
+                return _map_file(sha256, sources, trails, mappings)
     except NoMapError:
         raise
-    except (KeyError, ValueError, RecursionError) as error:
-        raise NoMapError("it is not the file that linkforge writes") from error
+    except (AttributeError, TypeError, ValueError, RecursionError):
+        pass
+    raise NoMapError("it is not the file that linkforge writes")
 
 
-def _segment(row: list[object], sources: tuple[Source, ...], trails: int) -> tuple[int, Stretch, int]:
-    column, *stretch, trail = _numbers(row, 6)
-    if trail >= trails:
-        raise ValueError("there is no such trail")
-    return column, _stretch(list(stretch), sources), trail
+def _map_file(sha256: str, sources: Any, trails: Any, mappings: Any) -> MapFile:  # Any: what JSON has
+    """Return a map; one of the errors of Python for what is none."""
+    found = tuple(map(_source, sources))
+    ways = tuple(
+        tuple((how, _stretch(row, len(found))) for step in steps for how, row in step.items()) for steps in trails
+    )
+    rows = {int(line): tuple(_segment(row, len(found), len(ways)) for row in rows) for line, rows in mappings.items()}
+    return MapFile(sha256, found, ways, rows)
 
 
-def _source(item: Mapping[str, object]) -> Source:
-    return Source(_text(item["path"]), _text(item["sha256"]))
+def _source(item: object) -> Source:
+    match item:
+        case {"path": str(path), "sha256": str(sha256)}:
+            return Source(path, sha256)
+    raise ValueError("it is no source")
 
 
-def _stretch(row: list[object], sources: tuple[Source, ...]) -> Stretch:
-    stretch = Stretch(*_numbers(row, 4))
-    if stretch.source >= len(sources):
-        raise ValueError("there is no such source")
-    return stretch
+def _segment(row: object, sources: int, trails: int) -> tuple[int, Stretch, int]:
+    match row:
+        case [int(column), *stretch, int(trail)] if column >= 0 and 0 <= trail < trails:
+            return column, _stretch(stretch, sources), trail
+    raise ValueError("it is no segment, or of a trail that there is not")
 
 
-def _numbers(row: list[object], count: int) -> list[int]:
-    numbers = [number for number in row if isinstance(number, int) and number >= 0]
-    if len(numbers) != count or len(row) != count:
-        raise ValueError(f"expected {count} numbers")
-    return numbers
-
-
-def _object(value: object) -> dict[str, object]:
-    if not isinstance(value, dict):
-        raise ValueError("expected an object")
-    return value
-
-
-def _list(value: object) -> list[object]:
-    if not isinstance(value, list):
-        raise ValueError("expected a list")
-    return value
-
-
-def _text(value: object) -> str:
-    if not isinstance(value, str):
-        raise ValueError("expected a text")
-    return value
+def _stretch(row: object, sources: int) -> Stretch:
+    match row:
+        case [int(source), int(line), int(column), int(length)] if min(row) >= 0 and source < sources:
+            return Stretch(source, line, column, length)
+    raise ValueError("it is no stretch, or of a source that there is not")
