@@ -220,6 +220,7 @@ WORDS_AND_NAMES = (
         "y",
         "    axis: y\n    limits: {lower: -120",
     ),
+    Case(ROVER, "    for: {side: $(sides)}", "    for: {side: ¦}", "3", "", "3", "    for: {side: 3}", False),
     Case(
         ROVER,
         "    link: lidar_link\n",
