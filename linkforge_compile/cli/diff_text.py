@@ -13,7 +13,7 @@ _DEPTH = {"semantic": 3}
 
 _SIGNS = {"added": "+", "removed": "-", "renamed": ">", "moved": ">", "changed": "~"}
 
-BREAKING = "breaking: names that are gone, on which others may rely"
+BREAKING = "breaking: removed names that others may rely on"
 
 
 def difference_lines(

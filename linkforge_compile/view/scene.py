@@ -161,7 +161,7 @@ class SceneDifference(TypedDict):
 
 
 class SceneRemoved(TypedDict):
-    """Names that are gone, on which others may rely, in a line: `kind` is what they name."""
+    """Removed names that others may rely on, in a line: `kind` is what they name."""
 
     kind: str
     text: str

@@ -31,7 +31,7 @@ NEW = OLD.replace("upper: 90 deg", "upper: 120 deg").replace("tool0", "tool").re
 TEXT = """\
 old.robot.yaml → new.robot.yaml: 1 renamed, 2 changed
 
-breaking: names that are gone, on which others may rely
+breaking: removed names that others may rely on
   link  tool0, now tool
 
 links

@@ -88,7 +88,7 @@ def test_faults_are_shown_over_the_last_robot_until_they_are_corrected(tab: Page
     expect(problems).to_contain_text("no link named 'hnd'; did you mean 'hand'?")
     expect(problems).to_contain_text("LF4102")
     expect(problems).to_contain_text(f"{spec.name}:12:12")
-    expect(problems).to_contain_text("the last good robot is shown")
+    expect(problems).to_contain_text("showing the last robot without errors")
     wait_until_hand_is_at(tab, 1)
     with tab.expect_popup() as manual:
         problems.get_by_role("link", name="LF4102").click()
@@ -170,7 +170,7 @@ def test_a_spec_with_errors_from_the_start_shows_its_robot_once_it_is_corrected(
     tab = new_tab()
     open_viewer(tab, viewer)
     expect(tab.locator(".problems")).to_contain_text("LF4102")
-    expect(tab.locator(".problems")).to_contain_text("no robot can be shown yet")
+    expect(tab.locator(".problems")).to_contain_text("no robot to show yet")
     spec.write_text(SPEC)
     wait_until_hand_is_at(tab, 1)
     expect(tab.locator(".problems")).to_be_hidden()
@@ -182,7 +182,7 @@ def test_the_page_reports_that_the_server_has_ended(chromium: Browser, viewer: V
     open_viewer(tab, viewer)
     expect(tab.locator(".problems")).to_be_hidden()
     assert viewer.interrupt() == 130
-    expect(tab.locator(".problems")).to_contain_text("the server has ended")
+    expect(tab.locator(".problems")).to_contain_text("the server has stopped")
     wait_until_hand_is_at(tab, 1)
     tab.close()
 

@@ -125,7 +125,7 @@ def test_a_number_is_read_in_the_shown_unit_and_kept_within_the_limits(show: Ope
 def test_a_double_click_or_the_button_resets_a_joint(show: Open):
     tab = show()
     slide(tab, "shoulder", 0.5)
-    tab.get_by_title("move shoulder to where it started").click()
+    tab.get_by_title("move shoulder to its start position").click()
     assert positions(tab)["shoulder"] == 0
     slide(tab, "shoulder", 0.5)
     tab.get_by_label("position of shoulder", exact=True).dblclick()
@@ -407,7 +407,7 @@ def test_problems_of_the_spec_are_over_the_last_good_robot(live: Any, spec: Path
     problems = live.locator(".problems")
     expect(problems).to_be_hidden()
     spec.write_text(SPEC.replace("child: arm", "child: amr"))
-    expect(problems).to_contain_text("1 error · the last good robot is shown")
+    expect(problems).to_contain_text("1 error · showing the last robot without errors")
     expect(problems).to_contain_text("did you mean 'arm'?")
     expect(problems.locator("li")).to_contain_text("arm.robot.yaml:13:27")
     assert shown_links(live) == ["base", "arm"]
@@ -424,7 +424,7 @@ def test_widgets_of_parameters_compile_the_spec_again(live: Any):
     number.press("Enter")
     expect(details).to_contain_text("box 0.1 × 0.1 × 0.7 m")
     expect(live.get_by_label("reach, slider")).to_have_value("0.7")
-    live.get_by_title("set reach to its default").click()
+    live.get_by_title("reset reach to its default").click()
     expect(details).to_contain_text("box 0.1 × 0.1 × 1 m")
     slider = live.get_by_label("reach, slider")
     assert (slider.get_attribute("min"), slider.get_attribute("max")) == ("0.5", "2")
@@ -432,7 +432,7 @@ def test_widgets_of_parameters_compile_the_spec_again(live: Any):
     expect(details).to_contain_text("box 0.1 × 0.1 × 1.25 m")
     live.get_by_role("checkbox", name="is_heavy").check()
     live.get_by_role("combobox", name="tool").select_option("hook")
-    expect(live.get_by_title("set tool to its default")).to_be_visible()
+    expect(live.get_by_title("reset tool to its default")).to_be_visible()
     expect(live.get_by_role("checkbox", name="is_heavy")).to_be_checked()
 
 
@@ -478,4 +478,4 @@ def test_a_faulty_value_has_its_message_at_the_widget(live: Any):
 
 def test_the_end_of_the_server_is_shown(live: Any):
     live.server.stop()
-    expect(live.locator(".problems")).to_contain_text("connection lost; the server has ended", timeout=15_000)
+    expect(live.locator(".problems")).to_contain_text("connection lost; the server has stopped", timeout=15_000)

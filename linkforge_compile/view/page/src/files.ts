@@ -38,7 +38,7 @@ export class Files {
     const data = this.files[digest]?.data;
     if (data !== undefined) return decode(data);
     const answer = await fetch(`files/${digest}`);
-    if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
+    if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
     return answer.arrayBuffer();
   }
 

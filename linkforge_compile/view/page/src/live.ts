@@ -15,7 +15,7 @@ export function listen(state: State): void {
     state.receive(JSON.parse(event.data) as Update);
   });
   events.addEventListener("open", () => state.reportConnection(""));
-  events.addEventListener("error", () => state.reportConnection("connection lost; the server has ended"));
+  events.addEventListener("error", () => state.reportConnection("connection lost; the server has stopped"));
 }
 
 /** Compile with other settings; the result arrives as an update. */
@@ -28,6 +28,6 @@ export async function sendSettings(state: State, request: SettingsRequest): Prom
     });
     if (!answer.ok) state.reportConnection(`the server refused the settings: ${answer.status} ${await answer.text()}`);
   } catch {
-    state.reportConnection("connection lost; the server has ended");
+    state.reportConnection("connection lost; the server has stopped");
   }
 }

@@ -57,7 +57,7 @@ function start(scene: Scene): Console {
     select: (link) => state.select(link),
     layer: (name, isShown) => {
       const layer = LAYERS.find((one) => one === name);
-      if (!layer) throw new Error(`there is no layer ${name}; there are ${LAYERS.join(", ")}`);
+      if (!layer) throw new Error(`no layer named ${name}; the layers are ${LAYERS.join(", ")}`);
       state.setLayer(layer, isShown);
     },
     memory: () => ({ ...picture.viewport.renderer.info.memory }),

@@ -25,7 +25,7 @@ const READERS: Readonly<Record<string, Read>> = {
 /** Read a mesh: a group of meshes, each at its place in the axes of the file. */
 export async function readMesh(files: Files, digest: string): Promise<THREE.Group> {
   const read = READERS[files.kind(digest)];
-  if (!read) throw new Error(`there is no reader for .${files.kind(digest)}`);
+  if (!read) throw new Error(`.${files.kind(digest)} files are not supported`);
   return flat(await files.lend(files.uses(digest), (manager) => read(files, digest, manager)));
 }
 
@@ -71,7 +71,7 @@ async function readObj(files: Files, digest: string, manager: THREE.LoadingManag
 /** Read COLLADA as RViz does: the unit scales it, `up_axis` turns nothing, and blanks may be before its declaration. */
 async function readCollada(files: Files, digest: string, manager: THREE.LoadingManager): Promise<THREE.Object3D> {
   const collada = new ColladaLoader(manager).parse((await files.text(digest)).trimStart(), "");
-  if (!collada?.scene) throw new Error("it is no COLLADA document with a scene");
+  if (!collada?.scene) throw new Error("it is not a COLLADA document with a scene");
   collada.scene.rotation.set(0, 0, 0);
   for (const part of meshesIn(collada.scene)) {
     const kept = [part.material].flat().map((own) => (isFallback(own) ? NO_MATERIAL : own));

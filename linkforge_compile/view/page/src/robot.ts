@@ -125,7 +125,7 @@ export class Robot {
 
   private objects(link: string): LinkObjects {
     const objects = this.links.get(link);
-    if (!objects) throw new Error(`no link is named ${link}`);
+    if (!objects) throw new Error(`no link named ${link}`);
     return objects;
   }
 

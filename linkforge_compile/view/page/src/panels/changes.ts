@@ -9,7 +9,7 @@ export function makeChanges(comparison: Comparison, state: State): HTMLElement {
   const [before, after] = comparison.labels;
   const boxes = [makeBox(`before: ${before}`, "before", state), makeBox(`after: ${after}`, "after", state)];
   const list = make("ul", { className: "changes" }, ...comparison.differences.map((one) => makeDifference(one, state)));
-  const none = comparison.differences.length ? [] : [make("p", {}, "They are the same robot.")];
+  const none = comparison.differences.length ? [] : [make("p", {}, "no differences")];
   return makeSection("Changes", ...boxes, makeLegend(comparison), ...none, ...makeRemoved(comparison), list);
 }
 
@@ -17,7 +17,7 @@ export function makeChanges(comparison: Comparison, state: State): HTMLElement {
 function makeRemoved({ removed }: Comparison): HTMLElement[] {
   if (!removed.length) return [];
   const lines = removed.map(({ kind, text }) => make("div", {}, `${kind} ${text}`));
-  return [make("div", { className: "removed-names" }, "breaking: names that are gone, on which others may rely", ...lines)];
+  return [make("div", { className: "removed-names" }, "breaking: removed names that others may rely on", ...lines)];
 }
 
 function makeBox(text: string, side: "before" | "after", state: State): HTMLElement {

@@ -28,8 +28,8 @@ export function makeDetails(state: State): HTMLElement {
 
 function linkParts(link: Link, position: HTMLElement, state: State): HTMLElement[] {
   const joint = state.joint(link.parent);
-  const close = makeButton("×", "select nothing (Esc)", () => state.select(null));
-  close.ariaLabel = "select nothing";
+  const close = makeButton("×", "clear the selection (Esc)", () => state.select(null));
+  close.ariaLabel = "clear the selection";
   const heading = make("h2", {}, link.name);
   const parts = [make("div", { className: "line" }, heading, ...moduleTag(link.module), close), ...sourceLine(link.source)];
   parts.push(makeList([...massRows(link), ...shapeRows("visual", link.visuals, state), ...shapeRows("collision", link.collisions, state)]));
@@ -93,7 +93,7 @@ function shownShape(shape: Shape, state: State): Node | string {
 function sourceLine(source: Place | null): HTMLElement[] {
   if (!source) return [];
   const text = make("code", {}, shownPlace(source));
-  const copy = makeButton("copy", "copy the place in the spec", () => void copyText(text, copy));
+  const copy = makeButton("copy", "copy the location in the spec", () => void copyText(text, copy));
   return [make("div", { className: "line source" }, text, copy)];
 }
 

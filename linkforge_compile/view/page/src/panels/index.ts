@@ -51,8 +51,8 @@ function makeBar(state: State, search: HTMLInputElement, actions: Actions, help:
   };
   state.listen((change) => change === "scene" && show());
   show();
-  const fit = makeButton("fit", "show all of the robot (Home)", () => actions.fit());
-  const keys = makeButton("?", "show the keys (?)", () => help.showModal());
+  const fit = makeButton("fit", "show the whole robot (Home)", () => actions.fit());
+  const keys = makeButton("?", "show the keyboard shortcuts (?)", () => help.showModal());
   return make("header", { id: "bar" }, makeToggle("left", "tree"), name, figures, search, fit, keys, makeToggle("right", "joints"));
 }
 

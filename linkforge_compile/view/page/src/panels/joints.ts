@@ -23,7 +23,7 @@ export function makeJoints(state: State): HTMLElement {
   const filter = (): void => {
     for (const row of rows) row.element.hidden = !findsJoint(state, row.joint);
     const isEmpty = rows.every((row) => row.element.hidden);
-    list.dataset["empty"] = !isEmpty ? "" : rows.length ? "no joint of this name moves" : "no joint of this robot moves";
+    list.dataset["empty"] = !isEmpty ? "" : rows.length ? "no movable joint matches the search" : "this robot has no movable joints";
   };
   state.listen((change) => {
     if (change === "scene") rebuild();
@@ -39,9 +39,9 @@ function makeTools(state: State): HTMLElement {
   return make(
     "div",
     { className: "tools" },
-    makeButton("reset all", "move all joints to where they started (r)", () => state.setPositions(state.start)),
+    makeButton("reset all", "move all joints to their start positions (r)", () => state.setPositions(state.start)),
     makeButton("random", "move all joints to random positions within their limits (p)", () => moveAtRandom(state)),
-    make("span", { className: "units", role: "group", ariaLabel: "unit of angles" }, ...units),
+    make("span", { className: "units", role: "group", ariaLabel: "angle unit" }, ...units),
   );
 }
 
@@ -88,7 +88,7 @@ class JointRow {
     this.name.className = "name";
     this.slider = make("input", { type: "range", ...range, ariaLabel: label, disabled: !isFree(joint) });
     this.number = make("input", { type: "number", ariaLabel: `${label}, number`, disabled: !isFree(joint) });
-    this.reset = makeButton("↺", `move ${name} to where it started`, () => this.moveToStart());
+    this.reset = makeButton("↺", `move ${name} to its start position`, () => this.moveToStart());
     this.slider.oninput = () => state.setPositions({ [name]: this.slider.valueAsNumber });
     this.slider.ondblclick = () => this.moveToStart();
     this.number.onchange = () => this.readNumber();

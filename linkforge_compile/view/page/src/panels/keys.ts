@@ -21,14 +21,14 @@ export function makeKeys(state: State, search: HTMLInputElement, fit: () => void
   return [
     ...layers,
     { key: "/", text: "search for links, joints and modules", press: () => search.focus() },
-    { key: "Home", text: "show all of the robot", press: fit },
+    { key: "Home", text: "show the whole robot", press: fit },
     { key: "d", text: "move all joints to the default pose", press: () => state.setPositions(defaultPositions(state)) },
-    { key: "r", text: "move all joints to where they started", press: () => state.setPositions(state.start) },
+    { key: "r", text: "move all joints to their start positions", press: () => state.setPositions(state.start) },
     { key: "p", text: "move all joints to random positions", press: () => moveAtRandom(state) },
     { key: "u", text: "show angles in degrees or radians", press: () => state.useDegrees(!state.isInDegrees) },
     { key: "h", text: "show or hide the selected link", press: () => hideSelected(state) },
-    { key: "Escape", text: "select nothing", press: () => state.select(null) },
-    { key: "?", text: "show these keys", press: help },
+    { key: "Escape", text: "clear the selection", press: () => state.select(null) },
+    { key: "?", text: "show this help", press: help },
   ];
 }
 
@@ -60,12 +60,12 @@ export function makeHelp(keys: readonly Key[]): HTMLDialogElement {
   const rows = keys.flatMap(({ key, text }) => [make("dt", {}, make("kbd", {}, key)), make("dd", {}, text)]);
   const dialog = make("dialog", { className: "help" });
   dialog.append(
-    make("h2", {}, "Keys"),
+    make("h2", {}, "Keyboard shortcuts"),
     make("dl", {}, ...rows),
     make("h3", {}, "In the tree"),
-    make("p", {}, "↑ ↓ select, ← → close and open, Space hides or shows, with Shift also all links below."),
+    make("p", {}, "↑ ↓ select a link, ← → collapse and expand it, Space hides or shows it, Shift+Space also all links below it."),
     make("h3", {}, "Mouse"),
-    make("p", {}, "Drag turns, drag with the right button moves, the wheel zooms, a click selects a link. A double click on a slider resets it."),
+    make("p", {}, "Drag to rotate, drag with the right button to pan, scroll to zoom, click to select a link. Double-click a slider to reset it."),
     makeButton("close", "close (Esc)", () => dialog.close()),
   );
   return dialog;

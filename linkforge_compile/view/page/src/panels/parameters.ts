@@ -104,7 +104,7 @@ class Widget {
     this.input = makeInput(parameter, (text) => set(name, text));
     const hasSlider = minimum !== null && maximum !== null && !parameter.choices;
     this.slider = hasSlider ? makeSlider(parameter, (text) => this.slide(text, set)) : null;
-    this.reset = makeButton("↺", `set ${name} to its default`, () => set(name, null));
+    this.reset = makeButton("↺", `reset ${name} to its default`, () => set(name, null));
     const label = make("label", { title: titleOf(parameter) }, make("span", { className: "name" }, name), this.input);
     this.element = make("div", { className: "parameter" }, make("div", { className: "line" }, label, this.reset));
     if (this.slider) this.element.append(this.slider);

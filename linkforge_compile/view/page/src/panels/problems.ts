@@ -61,7 +61,7 @@ function headingOf(state: State, all: readonly Problem[]): string {
   const notes = all.length - errors - warnings;
   const counts = ([[errors, "error"], [warnings, "warning"], [notes, "note"]] as const).map(([count, noun]) => (count ? counted(count, noun) : ""));
   const parts = [state.connection, ...counts];
-  if (errors) parts.push(state.scene.links.length ? "the last good robot is shown" : "no robot can be shown yet");
+  if (errors) parts.push(state.scene.links.length ? "showing the last robot without errors" : "no robot to show yet");
   return parts.filter(Boolean).join(" · ");
 }
 
