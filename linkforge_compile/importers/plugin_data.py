@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Mapping
-from itertools import groupby
 from typing import NamedTuple
 
 from linkforge_compile.core.fields import Number, Spec, field_specs
@@ -42,15 +41,14 @@ def read_free(element: ElementReader, around: str | None = None) -> YamlNode:
 
 
 def is_free(element: XmlElement) -> bool:
-    """Whether keys represent an element: no order is lost, and no name has another meaning."""
+    """Whether keys represent an element: its text is first, and no name has another meaning."""
     is_text_first = not element.text.strip() or not element.children or _begins_with_text(element)
     return "text" not in element.values and is_text_first and has_free_children(element)
 
 
 def has_free_children(element: XmlElement) -> bool:
-    """Whether keys represent the children of an element."""
-    tags = [tag for tag, _ in groupby(child.tag for child in element.children)]
-    return len(set(tags)) == len(tags) and not any(map(_is_no_key, tags)) and all(map(is_free, element.children))
+    """Whether keys represent the children of an element; plugins read them by tag, so the order of tags is lost."""
+    return all(not _is_no_key(child.tag) and is_free(child) for child in element.children)
 
 
 def _is_no_key(tag: str) -> bool:
@@ -66,17 +64,21 @@ def _begins_with_text(element: XmlElement) -> bool:
 
 def take_children(owner: ElementReader, known: str | None = None) -> dict[str, YamlNode | None]:
     """Take all children of a free element by tag; a tag that repeats becomes a list."""
-    groups = groupby(owner.remaining(), lambda child: child.tag)
-    return {tag: _one_or_list(owner, list(group), known) for tag, group in groups}
+    return {tag: _one_or_list(owner, group, known) for tag, group in _by_tag(owner).items()}
 
 
 def take_free_children(owner: ElementReader) -> dict[str, YamlNode | None]:
     """Take the children with tags of which all elements are free."""
+    groups = _by_tag(owner)
+    free = {tag: group for tag, group in groups.items() if not _is_no_key(tag) and all(map(is_free, group))}
+    return {tag: _one_or_list(owner, group, owner.element.tag) for tag, group in free.items()}
+
+
+def _by_tag(owner: ElementReader) -> Mapping[str, list[XmlElement]]:
     groups: defaultdict[str, list[XmlElement]] = defaultdict(list)
     for child in owner.remaining():
         groups[child.tag].append(child)
-    free = {tag: group for tag, group in groups.items() if not _is_no_key(tag) and all(map(is_free, group))}
-    return {tag: _one_or_list(owner, group, owner.element.tag) for tag, group in free.items()}
+    return groups
 
 
 def _one_or_list(owner: ElementReader, group: list[XmlElement], known: str | None) -> YamlNode | None:

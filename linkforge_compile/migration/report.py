@@ -24,6 +24,7 @@ from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.migrate import Migration
 from linkforge_compile.migration.proof import Comparison
+from linkforge_compile.migration.without_effect import PLACES
 
 _MOST_DIFFERENCES = 5
 
@@ -144,7 +145,7 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         yield MACRO_KEPT.at(body.span, name=called[body].name, reason=reason)
     left_out = (one.origin for spec in migration.specs.values() for one in spec.left_out if one.origin)
     for element in dict.fromkeys(left_out):
-        yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag)
+        yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag, place=PLACES.get(element.tag, "a joint of this type"))
     elements = [one for document in migration.expander.sources.documents.values() for one in document.root.walk()]
     lost_texts = frozenset().union(*(spec.lost_texts for spec in migration.specs.values()))
     yield from (found for one in elements if one.text and (found := text_left_out(one)).message in lost_texts)

@@ -1,31 +1,43 @@
-"""Elements that URDF allows and no reader of it acts on: the axis of a joint that has none."""
+"""Elements that URDF readers ignore: the axis of a joint that has none, the material of a collision."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
-from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS
+from linkforge_compile.core import Robot
+from linkforge_compile.core.models.joint import HAVE_NO_AXIS, HAVE_NO_LIMITS, Joint
+from linkforge_compile.core.models.link import Collision, Link
 from linkforge_compile.source.xml_tree import first_tag
 
-if TYPE_CHECKING:
-    from linkforge_compile.core import Robot
-    from linkforge_compile.core.models.joint import Joint
-
-WITHOUT_EFFECT: Mapping[str, frozenset[str]] = {
+_OF_JOINTS: Mapping[str, frozenset[str]] = {
     str(kind): frozenset(tag for tag, kinds in (("axis", HAVE_NO_AXIS), ("limit", HAVE_NO_LIMITS)) if kind in kinds)
     for kind in {*HAVE_NO_AXIS, *HAVE_NO_LIMITS}
 }
-"""The tags of elements in a joint that have no effect, by its type."""
+_IN: Mapping[str, frozenset[str]] = {"collision": frozenset(("material",)), "link": frozenset(("gazebo",))}
+PLACES = {"material": "a collision", "gazebo": "a link"}
+"""In what an element has no effect, by its tag."""
+
+P = TypeVar("P", Joint, Link, Collision)
+
+
+def without_effect(tag: str, kind: str = "") -> frozenset[str]:
+    """Return the tags that readers ignore in an element; `kind` is the type of a joint."""
+    return _OF_JOINTS.get(kind, frozenset()) if tag == "joint" else _IN.get(tag, frozenset())
 
 
 def leave_out(robot: Robot) -> None:
     """Remove these elements, which are raw XML there, from a robot."""
-    robot.joints = [_without(joint) for joint in robot.joints]
+    robot.joints = [_without(joint, without_effect("joint", str(joint.type))) for joint in robot.joints]
+    robot.links = [_without(_with_plain_collisions(link), without_effect("link")) for link in robot.links]
 
 
-def _without(joint: Joint) -> Joint:
-    tags = WITHOUT_EFFECT.get(str(joint.type), frozenset())
-    kept = [text for text in joint.extra_elements if first_tag(text) not in tags]
-    return joint if len(kept) == len(joint.extra_elements) else replace(joint, extra_elements=kept)
+def _with_plain_collisions(link: Link) -> Link:
+    collisions = [_without(one, without_effect("collision")) for one in link.collisions]
+    return link if collisions == [*link.collisions] else replace(link, collisions=collisions)
+
+
+def _without(part: P, tags: frozenset[str]) -> P:
+    kept = [text for text in part.extra_elements if first_tag(text) not in tags]
+    return part if len(kept) == len(part.extra_elements) else replace(part, extra_elements=kept)

@@ -34,7 +34,7 @@ from linkforge_compile.migration.symbols import (
 )
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
 from linkforge_compile.migration.vectors import as_vector, is_data, tokens_of
-from linkforge_compile.migration.without_effect import WITHOUT_EFFECT
+from linkforge_compile.migration.without_effect import without_effect
 from linkforge_compile.units import number_text
 
 _COUNTS = {"xyz": 3, "rpy": 3, "size": 3}
@@ -89,9 +89,9 @@ class Writer:
             for name, parts in element.attributes.items()
         )
         without = frozenset[str]()
-        if element.tag == "joint" and not is_plugin and "type" in element.attributes:
-            kind = self._attribute(("joint", "type"), element.attributes["type"], outcomes, is_plugin=False)
-            without = WITHOUT_EFFECT.get(kind, without)
+        if not is_plugin:
+            kind = element.attributes.get("type", ()) if element.tag == "joint" else ()
+            without = without_effect(element.tag, self._attribute(("joint", "type"), kind, outcomes, is_plugin=False))
         content = self.content(element.content, outcomes, is_plugin=is_plugin, without=without) + (mark or "")
         return f"<{element.tag}{attributes}>{content}</{element.tag}>" if content else f"<{element.tag}{attributes}/>"
 

@@ -424,7 +424,8 @@ def test_gazebo_blocks_follow_their_links_and_joints(read):
                 properties: {mu2: 2e-1, sensor: {_name: $(prefix)eye, _type: camera}}
                 plugins:
                   p: {filename: p.so, parameters: {ros: {namespace: /x}, j: [a, b]}}
-              - plugins: {p: {filename: p.so, extra: [<x/>, <y/>, <x>1</x>]}}
+              - plugins:
+                  p: {filename: p.so, parameters: {x: ["", 1], y: ""}}
               - {}
 
         gazebo:

@@ -61,6 +61,25 @@ def test_the_axis_of_the_joint_that_attaches_a_module_is_left_out(tmp_path: Path
     assert [one.code.id for one in made.proved.diagnostics].count("LF8048") == 1
 
 
+def test_the_material_of_a_collision_and_a_gazebo_block_in_a_link_are_left_out(tmp_path: Path):
+    paint = '<material name="red"><color rgba="1 0 0 1"/></material>'
+    shape = '<geometry><sphere radius="1"/></geometry>'
+    made = migrated(
+        tmp_path,
+        f"""<link name="base">
+  <visual>{shape}{paint}</visual>
+  <collision>{shape}{paint}</collision>
+  <gazebo reference="base"><material>Gazebo/Red</material></gazebo>
+</link>""",
+    )
+    assert "base: {visual: {sphere: 1, material: red}, collision: visual}" in made.robot
+    messages = [one.message for one in made.proved.diagnostics if one.code.id == "LF8048"]
+    assert messages == [
+        "<material> is omitted: URDF readers ignore it in a collision",
+        "<gazebo> is omitted: URDF readers ignore it in a link",
+    ]
+
+
 def test_text_that_no_reader_uses_is_omitted_with_a_warning_at_its_element(tmp_path: Path):
     text = """<link name="base"/>
 <xacro:macro name="wheel" params="name">

@@ -110,9 +110,7 @@ MIGRATION_UNPROVED = Code(
     "LF8044", _W, "with {arguments}, nothing is compared, because xacro's robot is faulty: {reason}"
 )
 
-ELEMENT_LEFT_OUT = Code(
-    "LF8048", _N, "<{tag}> is omitted, because it has no effect on a joint of this type: no URDF reader acts on it"
-)
+ELEMENT_LEFT_OUT = Code("LF8048", _N, "<{tag}> is omitted: URDF readers ignore it in {place}")
 
 SPEC_NEEDS_OUTSIDE = Code("LF8049", _W, "'linkforge compile {spec}' will fail here: {reason}")
 PARAMETER_GONE = Code(
