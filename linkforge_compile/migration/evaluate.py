@@ -220,7 +220,7 @@ class Evaluator(ABC):
             return self._unreadable(known, self.address(parts, context), context)
         for part in parts[:1]:
             if isinstance(part, Reference):
-                part.symbol.is_data_path = True
+                part.symbol.data_folder = relative_path(self.sources.spec_folder, context.folder)
         address = self.address(parts, context)
         for symbol in context.file.symbols:
             if symbol.role == "data" and same_text(symbol.value or (), address):

@@ -19,7 +19,7 @@ from linkforge_compile.migration.attachment import (
 from linkforge_compile.migration.blocks import form_of
 from linkforge_compile.migration.calls import Calls, Plan, no_module
 from linkforge_compile.migration.combinations import Arguments, combinations_of, domain_of
-from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.constants import constant_of, example_of
 from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.expand import Expander
@@ -291,7 +291,7 @@ def _kind(node: ast.expr) -> str:
     try:
         value = constant_of(node)
     except NotConstantError:
-        return UNKNOWN
+        return MAP if isinstance(example_of(node), dict) else UNKNOWN
     return MAP if isinstance(value, dict) else kind_of(constant(value))
 
 

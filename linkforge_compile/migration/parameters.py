@@ -73,8 +73,15 @@ def _is_spelled(symbol: Symbol) -> bool:
 
 def is_file(symbol: Symbol) -> bool:
     """Whether a parameter is the path of a file of data and nothing else."""
-    first = symbol.value[0] if symbol.value else ""
-    return symbol.is_data_path and not symbol.is_written and (symbol.value is None or is_path(first))
+    value = symbol.value
+    is_known = value is None or is_path(value[0] if value else "") or _is_relative(value)
+    return symbol.data_folder is not None and not symbol.is_written and is_known
+
+
+def _is_relative(parts: Parts) -> bool:
+    """Whether a text is a path that begins in the folder of the xacro that reads it."""
+    text = "".join(map(str, parts))
+    return is_literal(parts) and text.endswith((".yaml", ".yml")) and "://" not in text and not text.startswith("/")
 
 
 def declaration(symbol: Symbol, values: Values, where: Span) -> YamlNode:
@@ -107,6 +114,8 @@ def _default(symbol: Symbol, parts: Parts, values: Values, where: Span) -> YamlN
     kind = type_of(symbol)
     if kind == "file":
         address = joined(*(as_parts(one.args[0]) if isinstance(one, ast.Call) else (one,) for one in parts))
+        if _is_relative(parts):
+            address = joined((f"{symbol.data_folder}/",), address)
         return values.value(address, where, "")
     literal = literal_of(value_of(parts))
     if kind == "string" and literal is not UNSET and not is_literal(parts):

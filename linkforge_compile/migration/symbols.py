@@ -100,8 +100,8 @@ class Symbol:
     where: Span | None = None
     is_named: bool = False
     """Whether data have the name of a property."""
-    is_data_path: bool = False
-    """Whether it names a file of data."""
+    data_folder: str | None = None
+    """The folder in which the path of a file of data begins, if it names one."""
     is_written: bool = False
     """Whether its text is written into the robot."""
     is_in_text: bool = False

@@ -204,3 +204,21 @@ def test_a_variable_that_is_a_velocity_is_no_angle(tmp_path: Path):
 <joint name="j" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
   <limit lower="${-velocity / 2}" upper="1" effort="1" velocity="${velocity * 2}"/></joint>"""
     assert "velocity: $(speed * pi / 180)\n" in migrated(tmp_path, text).robot
+
+
+def test_an_argument_that_names_a_file_beside_the_xacro_is_a_file_with_its_place(tmp_path: Path):
+    """A relative path begins in the folder of the xacro, and that of a parameter in the folder of the spec."""
+    (tmp_path / "arm.yaml").write_text("reach: {upper: 0.5}\n", "utf-8")
+    text = """
+<xacro:arg name="config" default="arm.yaml"/>
+<xacro:property name="known" value="${xacro.load_yaml('$(arg config)')['reach']}"/>
+<xacro:macro name="ball" params="name known">
+  <link name="${name}"><visual><geometry><sphere radius="${known.upper}"/></geometry></visual></link>
+  <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+</xacro:macro>
+<link name="base"/>
+<xacro:ball name="left" known="${known}"/>
+<xacro:ball name="right" known="${known}"/>"""
+    made = migrated(tmp_path, text)
+    assert "config: {type: file, default: ../arm.yaml}" in made.robot
+    assert "known: {type: map}" in made.files["ball.robot.yaml"]
