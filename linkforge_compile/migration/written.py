@@ -201,7 +201,20 @@ class Writer:
             known = None
         if isinstance(known, float) and str(known) != number_text(known):
             return str(known)
-        return self.placeholders.number(node)
+        return self.placeholders.number(_as_spelled(node) or node)
+
+
+def _as_spelled(node: ast.expr) -> ast.expr | None:
+    """Return alternatives of numbers as the texts that Python writes; None if the language writes the same."""
+    match node:
+        case Reference(symbol=symbol) if symbol.role == "variable" and symbol.value and len(symbol.value) == 1:
+            return _as_spelled(as_expression(symbol.value))
+        case ast.IfExp(test=test, body=body, orelse=orelse):
+            sides = _as_spelled(body), _as_spelled(orelse)
+            if any(sides):
+                return ast.IfExp(test=test, body=sides[0] or body, orelse=sides[1] or orelse)
+    value = literal_of(node)
+    return constant(str(value)) if isinstance(value, float) and str(value) != number_text(value) else None
 
 
 def _is_given_in_lower_case(node: ast.expr) -> bool:

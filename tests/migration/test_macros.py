@@ -251,3 +251,12 @@ def test_entries_are_named_by_all_words_of_a_call_where_one_is_not_enough(tmp_pa
     made = migrated(tmp_path, text)
     assert "{entry: front_left, name_prefix: front, suffix: left, origin: [0.2, $(width / 2), 0]}" in made.robot
     assert "{entry: front_right, name_prefix: front, suffix: right, origin: [0.2, $(-width / 2), 0]}" in made.robot
+
+
+def test_numbers_that_a_plugin_reads_are_spelled_as_python_does_for_every_outcome(tmp_path: Path):
+    text = """<link name="base"/>
+<xacro:arg name="model" default="short"/>
+<xacro:property name="reach" value="10.0"/>
+<xacro:if value="${'$(arg model)' == 'long'}"><xacro:property name="reach" value="14.5"/></xacro:if>
+<gazebo><plugin name="lidar" filename="lidar.so"><reach>${reach}</reach></plugin></gazebo>"""
+    assert "parameters: {reach: $(14.5 if model == 'long' else '10.0')}" in migrated(tmp_path, text).robot
