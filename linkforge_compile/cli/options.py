@@ -83,9 +83,11 @@ class StoreOnce(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
-def add_spec_and_values(parser: argparse.ArgumentParser) -> None:
+def add_spec_and_values(
+    parser: argparse.ArgumentParser, help_: str = "the spec, NAME.robot.yaml; - for standard input"
+) -> None:
     """Add a spec and ROS's NAME:=VALUE as one list of words, which `split_assignments` separates."""
-    parser.add_argument("words", metavar="SPEC", nargs="+", help="the spec, NAME.robot.yaml; - for standard input")
+    parser.add_argument("words", metavar="SPEC", nargs="+", help=help_)
 
 
 def add_spec_options(parser: argparse.ArgumentParser, *, variants_help: str = "") -> None:

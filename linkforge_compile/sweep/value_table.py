@@ -34,7 +34,7 @@ def read_values(
     of parameters and variants count. Unknown columns and wrong values are reported at their line.
     """
     option = words.option("values")
-    header, body = _read(path, option)
+    header, rows = _header(path, option)
     is_own = reserved_columns() - {"variant"} <= {cell.text for cell in header}
     known = {*declared.parameters, *(["variant"] if declared.variants else [])}
     chosen = [at for at, cell in enumerate(header) if not is_own or cell.text in known]
@@ -44,6 +44,7 @@ def read_values(
     for number, at in enumerate(chosen):
         if header[at].text in [header[one].text for one in chosen[:number]]:
             sink.report(SET_TWICE.at(header[at].span, name=header[at].text, notes=()))
+    body = _body(path, option, header, rows, sink)
     parameters: dict[str, Parameter] = {}
     for at, name in zip(chosen, names, strict=True):
         column = [row[at] for row in body if row[at].text]
@@ -56,8 +57,10 @@ def read_values(
     return Axis(names, [tuple(row[at].text for at in chosen) for row in body]), parameters
 
 
-def _read(path: Path, option: str) -> tuple[list[Cell], list[list[Cell]]]:
-    """Return the names of the columns and the rows; SweepError for a file that is not such a table."""
+def _header(path: Path, option: str) -> tuple[list[Cell], Iterator[list[Cell]]]:
+    """Return the names of the columns, and the rows below; SweepError for a file that is not such a table."""
+    if str(path) == "-" or path.is_fifo():
+        raise SweepError(f"{option} takes a file, not standard input or a pipe: it is read several times")
     rows = _parquet_rows(path, option) if path.suffix == ".parquet" else _csv_rows(path, option)
     header = next(rows, [])
     if not header:
@@ -65,12 +68,23 @@ def _read(path: Path, option: str) -> tuple[list[Cell], list[list[Cell]]]:
     if len(header) == 1 and (found := next((one for one in (";", "\t") if one in header[0].text), None)):
         shown = "tabs" if found == "\t" else f"'{found}'"
         raise SweepError(f"{option} {path}: the columns are separated by {shown}; write commas, and decimal points")
+    return header, rows
+
+
+def _body(
+    path: Path, option: str, header: list[Cell], rows: Iterator[list[Cell]], sink: Diagnostics
+) -> list[list[Cell]]:
+    """Return the rows of a table; SweepError, with what is wrong with the header, for rows that are not of one."""
     body = [row for row in rows if row]
     if short := next((row for row in body if len(row) != len(header)), None):
-        raise SweepError(f"{short[0].span}: expected {len(header)} values, as the first line has, found {len(short)}")
+        expected = f"{len(header)} value{'' if len(header) == 1 else 's'}"
+        text = f"{short[0].span}: expected {expected}, as the first line has, found {len(short)}"
+        raise SweepError(text, sink.sorted())
     if not body:
-        raise SweepError(f"{option} {path}: the table has no rows")
-    return header, body
+        raise SweepError(
+            f"{option} {path}: the table has no rows; the first line has names, the others values", sink.sorted()
+        )
+    return body
 
 
 def _check(column: list[Cell], parameter: Parameter, sink: Diagnostics) -> None:
@@ -103,9 +117,11 @@ def _csv_rows(path: Path, option: str) -> Iterator[list[Cell]]:
     except OSError as error:
         raise SweepError(f"{option} {path}: {error.strerror}") from error
     except UnreadableError as error:
-        raise SweepError(f"{option} {path} cannot be read: {error}") from error
+        raise SweepError(
+            f"{option} {path} cannot be read: {error}; the name of a Parquet file ends in .parquet"
+        ) from error
     file, lines = SourceFile(str(path), text, path), list(io.StringIO(text, newline=""))
-    reader, line = csv.reader(lines), 1
+    reader, line = csv.reader(lines, strict=True), 1
     try:
         for row in reader:
             yield cells_of(row, lines[line - 1].rstrip("\r\n"), file, line, 1)
@@ -120,8 +136,10 @@ def _parquet_rows(path: Path, option: str) -> Iterator[list[Cell]]:
 
     try:
         table = parquet().read_table(path)
+    except FileNotFoundError as error:
+        raise SweepError(f"{option} {path}: No such file or directory") from error
     except (OSError, ValueError) as error:  # pyarrow's errors are ValueErrors
-        raise SweepError(f"{option} {path}: {error}") from error
+        raise SweepError(f"{option} {path} cannot be read as Parquet: {error}") from error
     columns = [column.to_pylist() for column in table.columns]
     shown = [
         table.column_names,

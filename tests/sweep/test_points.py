@@ -138,6 +138,7 @@ def test_a_parameter_is_not_varied_twice_or_fixed_as_well(tmp_path: Path):
         ({"grid": {"reach": [1]}, "parameters": {"raech": 1}}, "<parameters>:1:1: error: no parameter named 'raech'"),
         ({"values": "none.csv"}, "values none.csv: No such file or directory"),
         ({"grid": {"reach": [1]}, "jobs": 0}, "jobs takes a whole number from 1, found 0"),
+        ({"sample": 9, "seed": 1.5}, "seed takes a whole number, found 1.5"),
         ({"sample": 0}, "sample takes a whole number from 1, found 0"),
         ({"grid": {"reach": [1]}, "chunk": 1.5}, "chunk takes a whole number from 1, found 1.5"),
         ({"grid": {"reach": [1]}, "pack": "rar"}, "pack takes folders, tar, zip or none, found 'rar'"),
@@ -281,11 +282,37 @@ def test_a_wrong_table_is_reported_at_its_line(tmp_path: Path, text: str, place:
     assert (str(first.span), first.message) == (f"{table}:{place}", message)
 
 
-def test_a_short_row_is_refused(tmp_path: Path):
-    table = tmp_path / "points.csv"
-    table.write_text("reach,tool\n1m,hand\n1m\n")
-    with pytest.raises(SweepError, match=r"points\.csv:3:1: expected 2 values, as the first line has, found 1"):
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("points.csv", "reach,tool\n1m,hand\n1m\n", ":3:1: expected 2 values, as the first line has, found 1"),
+        ("points.csv", 'reach,tool\n1m,hand\n"1m,hand\n', ":3: cannot be read as CSV: unexpected end of data"),
+        ("points.csv", "reach\n", ": the table has no rows; the first line has names, the others values"),
+        ("points.pq", "PAR1\xff", "; save it as UTF-8; the name of a Parquet file ends in .parquet"),
+        ("points.parquet", "reach\n1m\n", " cannot be read as Parquet: "),
+    ],
+)
+def test_a_file_that_is_no_table_is_refused(tmp_path: Path, name: str, content: str, message: str):
+    table = tmp_path / name
+    table.write_text(content, "latin-1")
+    with pytest.raises(SweepError, match=f"{re.escape(name)}.*{re.escape(message)}"):
         plan(tmp_path, values=table)
+
+
+def test_what_is_wrong_with_a_header_is_reported_with_the_rows(tmp_path: Path):
+    """As of a file that is no table."""
+    table = tmp_path / "points.csv"
+    table.write_text("linkforge: 1\nname: arm\nlinks: {a: {}, b: {}}\n")
+    with pytest.raises(
+        SweepError, match=r"points\.csv:3:1: expected 1 value, as the first line has, found 2"
+    ) as caught:
+        plan(tmp_path, values=table)
+    assert [one.message for one in caught.value.diagnostics] == ["no parameter named 'linkforge: 1'"]
+
+
+def test_a_table_that_is_missing(tmp_path: Path):
+    with pytest.raises(SweepError, match=r"points\.parquet: No such file or directory$"):
+        plan(tmp_path, values=tmp_path / "points.parquet")
 
 
 # Conditions

@@ -64,7 +64,7 @@ examples:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = "linkforge sweep [options] SPEC [NAME:=VALUE ...] -o FOLDER"
     parser.epilog = _EXAMPLES
-    add_spec_and_values(parser)
+    add_spec_and_values(parser, "the spec, NAME.robot.yaml, a file")
     parser.add_argument("-o", "--output", metavar="FOLDER", required=True, help="where robots, table and manifest go")
     _add_choice_options(parser)
     _add_output_options(parser)
@@ -85,7 +85,7 @@ def _add_choice_options(parser: argparse.ArgumentParser) -> None:
         help="vary a parameter: START:STOP:COUNT, or VALUE,VALUE,…; --set are combined. With --sample also LO:HI",
     )
     group.add_argument("--sample", metavar="N", type=whole_number(1), help="draw N random points instead of a grid")
-    group.add_argument("--seed", metavar="S", type=int, help="the seed of --sample, a whole number (default: 0)")
+    group.add_argument("--seed", metavar="S", type=_seed, help="the seed of --sample, a whole number (default: 0)")
     group.add_argument(
         "--values", metavar="FILE", type=Path, help="a CSV or Parquet file: columns are parameters, rows are points"
     )
@@ -149,10 +149,10 @@ def _run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.sweep.session import execute
     from linkforge_compile.sweep.store import Store
 
+    folder = _folder_of(arguments)
     with _points_bar(arguments) as checked:
         plan = plan_of(_request_of(arguments), _choice_of(arguments), checked)
     packing = "none" if arguments.table_only else arguments.pack or "folders"
-    folder = Path(arguments.output)
     store = Store(folder, packing, plan.request.columns, has_variants=plan.has_variants)
     place = _place_of(plan, arguments)
     first_note = iter(() if place.is_here else ("waiting for processes to start",))
@@ -171,6 +171,14 @@ def _run(arguments: argparse.Namespace) -> int:
         bar.close()
     _print_summary(plan, summary, monotonic() - begin, arguments)
     return FAULTY_SPEC if summary.failed else OK
+
+
+def _folder_of(arguments: argparse.Namespace) -> Path:
+    if arguments.output == "":
+        raise UsageError("-o takes a folder, found '': is a variable of the shell empty?")
+    if arguments.output == "-":
+        raise UsageError("-o takes a folder, not standard output; write ./- for a folder of that name")
+    return Path(arguments.output)
 
 
 @contextmanager
@@ -200,8 +208,8 @@ def _request_of(arguments: argparse.Namespace) -> Request:
 
     words, assignments = split_assignments(arguments.words)
     spec = require_one_spec(words)
-    if spec == "-":
-        raise UsageError("takes a spec as a file, not standard input: other processes read it as well")
+    if spec == "-" or Path(spec).is_fifo():
+        raise UsageError("takes a spec as a file, not standard input or a pipe: it is read several times")
     for name in arguments.formats:
         try:
             formats.format_named(name)
@@ -283,3 +291,12 @@ def _group_line(group: Group) -> str:
     robots = f"{group.robots:,} robot{'' if group.robots == 1 else 's'}"
     example = f"such as {group.first.index:06} ({' '.join(group.first.words)})"
     return f"{group.severity} in {robots}, {example}: {group.text}"
+
+
+def _seed(text: str) -> int:
+    from argparse import ArgumentTypeError
+
+    try:
+        return int(text)
+    except ValueError as error:
+        raise ArgumentTypeError(f"takes a whole number, found '{text}'") from error
