@@ -233,6 +233,7 @@ def test_a_worker_with_another_version_is_refused(client: Any, monkeypatch: pyte
         found["scheduler"]["packages"]["cloudpickle"] = "2.0.0"
         return found
 
+    client.wait_for_workers(2)  # after the test that kills one
     real = client.get_versions
     require_same_versions(client)
     monkeypatch.setattr(client, "get_versions", get_versions)
