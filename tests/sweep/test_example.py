@@ -4,12 +4,14 @@ import ast
 import importlib.util
 import math
 import re
+import shlex
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from linkforge_compile.sweep import run
+from tests.cli.in_process import linkforge
 from tests.conftest import ROOT
 
 FOLDER = ROOT / "examples/14_sweep"
@@ -38,19 +40,32 @@ def test_a_knee_holds_a_quarter_of_the_weight_at_its_distance_from_the_foot():
     assert torques == sorted(torques)
 
 
-def test_the_python_example_of_the_page_prints_ten_robots(
+def blocks_of_page(language: str) -> list[str]:
+    page = (ROOT / "docs" / "sweep.md").read_text("utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+
+
+def test_the_examples_of_the_page_do_what_it_says(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ):
-    code = re.findall(
-        r"^```python\n(.*?)^```", (ROOT / "docs" / "sweep.md").read_text("utf-8"), re.MULTILINE | re.DOTALL
-    )
-    (tmp_path / "arm.robot.yaml").write_text(
-        "linkforge: 1\nname: arm\nparameters: {reach: {type: length, default: 0.5 m}, fingers: 2}\n"
-        "links: {base: {visual: {box: [$(reach), 0.1, 0.1]}}}\n",
-        "utf-8",
-    )
     monkeypatch.chdir(tmp_path)
-    exec(code[0].replace("jobs=4", "jobs=1"), {"__name__": "__main__"})
+    (spec,), table, (reading, scoring) = blocks_of_page("yaml"), blocks_of_page("text")[1], blocks_of_page("python")
+    Path("arm.robot.yaml").write_text(spec, "utf-8")
+    command = shlex.split(blocks_of_page("sh")[0])[1:]
+    assert linkforge(*command, "--quiet", cwd=tmp_path).returncode == 0
+    assert sorted(path.name for path in Path("out/robots/000000").iterdir()) == ["arm.srdf", "arm.urdf"]
+    exec(reading)
+    assert capsys.readouterr().out == "{b'unit': b'm'}\n"
+    assert len(Path("out.csv").read_text("utf-8").splitlines()) == 61
+    Path("points.csv").write_text(table, "utf-8")
+    for options in (
+        ["--values", "points.csv"],
+        ["--sample", "3"],
+        ["--set", "reach=1", "--where", "$(reach > 2 * base)"],
+    ):
+        done = linkforge("sweep", "arm.robot.yaml", *options, "-o", f"of{options[0]}", "--quiet", cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "")
+    exec(scoring, {"__name__": "__main__"})
     best = ast.literal_eval(capsys.readouterr().out)
     assert [row["payload"] for row in best] == sorted((row["payload"] for row in best), reverse=True)
     assert len(best) == 10
