@@ -1,15 +1,21 @@
-"""Compiles a spec, and renders its outputs or compares them with existing files."""
+"""Compiles a spec, renders its outputs, compares them with existing files, and reports and writes them."""
 
 from __future__ import annotations
 
+import argparse
+from collections import Counter, defaultdict
+from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkforge_compile.banner import banner_of
-from linkforge_compile.cli import UsageError
+from linkforge_compile.cli import FAULTY_SPEC, OK, UsageError
 from linkforge_compile.cli.options import compile_spec, format_options_of
-from linkforge_compile.diagnostics import Note
+from linkforge_compile.cli.reports import errors_of, format_diagnostics, print_status, select, write_to_stderr
+from linkforge_compile.cli.specs import count
+from linkforge_compile.cli.targets import file_to_write
+from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.formats import MISSING_OUTPUT, STALE_OUTPUT
 from linkforge_compile.formats import Rendering, format_named, render_documents
 from linkforge_compile.source import SourceFile, Span
@@ -17,11 +23,10 @@ from linkforge_compile.source.characters import on_one_line
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from linkforge_compile.cli.targets import Targets
     from linkforge_compile.core import Robot
-    from linkforge_compile.diagnostics import Diagnostic
     from linkforge_compile.formats.user_templates import TemplateFolder
     from linkforge_compile.pipeline import Compilation
 
@@ -74,11 +79,6 @@ def targets_for(robot: Robot, targets: Targets) -> tuple[Targets, tuple[Diagnost
     """Return the targets for which the robot has content, and diagnostics about requested ones without."""
     missing = {name: why for name in targets.formats if (why := format_named(name).missing(robot))}
     return targets.without(missing), tuple(missing.values()) if targets.is_requested else ()
-
-
-def _place(target: Path, name: str) -> Path:
-    """Return the file of a document: the target, or a file below it for a format of several files."""
-    return target / name if name else target
 
 
 def compile_request(request: BuildRequest, arguments: argparse.Namespace) -> Compilation:
@@ -140,7 +140,7 @@ def _render_formats(robot: Robot, targets: Targets, rendering: Rendering) -> Ite
             yield Output(None, documents[0].text)
             continue
         for text, name, map_ in documents:
-            path = _place(target, name)
+            path = target / name  # without a name, the target itself
             yield Output(path, text)
             if map_ is not None:
                 from linkforge_compile.formats.map_file import ENDING, map_text
@@ -183,3 +183,102 @@ def _quote(line: str | None) -> str:
     if not line:
         return "nothing"
     return f"'{line if len(line) <= _LONGEST_QUOTE else line[:_LONGEST_QUOTE] + '…'}'"
+
+
+_LISTED = 3
+"""The most files up to date of which each has a line."""
+
+
+def deliver(builds: Sequence[Build], arguments: argparse.Namespace, faults: tuple[Diagnostic, ...] = ()) -> int:
+    """Report on builds, write the outputs of those without errors, and return the exit code.
+
+    `faults` are those of the search for specs. Nothing is written if an output would replace a source of any build.
+    """
+    if any(build.outputs for build in builds):
+        from linkforge_compile.cli.output import refuse_to_replace
+
+        outputs = [output.path for build in builds for output in build.outputs]
+        sources = dict.fromkeys(source for build in builds for source in build.sources)
+        refuse_to_replace(sources, (*outputs, file_to_write(arguments.depfile)))
+    chosen = select(_diagnostics_of(builds, faults), arguments)
+    runs = [select(build.diagnostics, arguments) for build in builds]
+    write_to_stderr(format_diagnostics(chosen, arguments, runs))
+    right = [build for build, run in zip(builds, runs, strict=True) if build.outputs and not errors_of(run)]
+    is_whole = len(right) == len(builds) and not faults
+    if arguments.depfile is not None:
+        # A build system prints its own status, and colcon shows any output on standard error as a warning.
+        _write(right, _depfile(right, arguments.depfile) if is_whole else ())
+    elif right or len(builds) != 1:
+        written = frozenset() if arguments.check else _write(right)
+        _print_status(builds, right, written, chosen, arguments)
+    return OK if is_whole else FAULTY_SPEC
+
+
+def _diagnostics_of(builds: Sequence[Build], faults: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of all builds, each once; those of some variants of a spec say of which."""
+    if len(builds) == 1:
+        return (*faults, *builds[0].diagnostics)
+    from linkforge_compile.diagnostics.reports import merge_reports, without_repeats
+
+    runs = defaultdict[str, dict[str, tuple[Diagnostic, ...]]](dict)
+    for build in builds:
+        runs[build.spec][f"variant '{build.variant}'"] = build.diagnostics
+    of_specs = (one for of_variants in runs.values() for one in merge_reports(of_variants))
+    return without_repeats((*faults, *of_specs))
+
+
+def _print_status(
+    builds: Sequence[Build],
+    right: Sequence[Build],
+    written: frozenset[Path],
+    diagnostics: tuple[Diagnostic, ...],
+    arguments: argparse.Namespace,
+) -> None:
+    """Print a line for each file of a single build, one summary of several builds or of many files up to date."""
+    paths = [output.path for build in right for output in build.outputs if output.path is not None]
+    if len(builds) == 1:
+        unchanged = [path for path in paths if path not in written]
+        is_short = len(unchanged) <= _LISTED
+        for path in paths:
+            if path in written:
+                print_status(f"wrote {path}", arguments)
+            elif is_short:
+                print_status(f"{path} is up to date", arguments)
+        if not is_short:
+            print_status(f"{count(len(unchanged), 'file')} are up to date", arguments)
+        return
+    from linkforge_compile.diagnostics.render_text import summary
+
+    states = Counter("written" if path in written else "up to date" for path in paths)
+    files = "".join(f", {count(number, 'file')} {state}" for state, number in states.items())
+    done = "checked" if arguments.check else "compiled"
+    print_status(f"{done} {_right_specs(builds, right)}{files}: {summary(diagnostics)}", arguments)
+
+
+def _right_specs(builds: Sequence[Build], right: Sequence[Build]) -> str:
+    """Return such as "3 specs", or "1 of 3 specs" where others have errors in a variant."""
+    specs = {build.spec for build in builds}
+    faulty = {build.spec for build in builds if build not in right}
+    if not faulty:
+        return count(len(specs), "spec")
+    return f"{len(specs) - len(faulty) or 'none'} of {count(len(specs), 'spec')}"
+
+
+def _write(builds: Sequence[Build], further: Sequence[Output] = ()) -> frozenset[Path]:
+    """Write all outputs; return the files that were written, without those that are up to date."""
+    from linkforge_compile.cli.output import write_changed
+
+    outputs = (*(output for build in builds for output in build.outputs), *further)
+    texts = {output.path: output.text for output in outputs if output.path is not None}
+    return write_changed(texts, next((output.text for output in outputs if output.path is None), None))
+
+
+def _depfile(builds: Sequence[Build], name: str) -> tuple[Output, ...]:
+    """Return the depfile, with a rule for the outputs of each spec."""
+    from linkforge_compile.cli.output import inputs_of, make_rules
+
+    def rule(build: Build) -> str:
+        paths = [output.path for output in build.outputs if output.path is not None]
+        return make_rules(paths, inputs_of(build.sources, build.template_folders))
+
+    return (Output(file_to_write(name), "".join(map(rule, builds))),)

@@ -2,9 +2,8 @@
 
 Each module imports only those above it:
 
-    scene      bodies, their motion and shapes, as plain values that other processes can get
+    scene      bodies, their motion and shapes, and pairs of them, as plain values that other processes can get
     meshes     find and read the meshes of collisions
-    pairs      the pairs of links: which are adjacent, comparable, or declared by a module
     collider   compute which pairs collide at some positions, with Pinocchio and coal
     sampling   sample positions, in this process or in several, and give each pair its reason
     matrix     put together what is declared and what is found

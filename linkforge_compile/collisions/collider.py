@@ -11,8 +11,7 @@ import numpy as np
 import pinocchio as pin
 
 from linkforge_compile.collisions.meshes import load_mesh
-from linkforge_compile.collisions.pairs import Pair
-from linkforge_compile.collisions.scene import Body, Motion, Pose, Scene, Shape
+from linkforge_compile.collisions.scene import Body, Motion, Pair, Pose, Scene, Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

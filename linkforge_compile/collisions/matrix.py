@@ -6,9 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkforge_compile.collisions.meshes import find_meshes
-from linkforge_compile.collisions.pairs import KnownModules, Names, Reason, comparable_pairs, is_own
 from linkforge_compile.collisions.sampling import ALWAYS_SHARE, Finding, Progress, SamplingSettings, find_reasons
-from linkforge_compile.collisions.scene import make_scene
+from linkforge_compile.collisions.scene import KnownModules, Names, Reason, comparable_pairs, is_own, make_scene
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostic, Diagnostics

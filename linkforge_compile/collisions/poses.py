@@ -10,8 +10,7 @@ import pinocchio as pin
 
 from linkforge_compile.collisions.collider import Collider
 from linkforge_compile.collisions.meshes import find_meshes
-from linkforge_compile.collisions.pairs import Names, comparable_pairs
-from linkforge_compile.collisions.scene import Body, Pose, Scene, make_scene
+from linkforge_compile.collisions.scene import Body, Names, Pose, Scene, comparable_pairs, make_scene
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.diagnostics import Diagnostics

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from linkforge_compile.collisions.pairs import Names, is_own
+from linkforge_compile.collisions.scene import Names, is_own
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostics

@@ -12,7 +12,7 @@ from multiprocessing.connection import wait
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from linkforge_compile.collisions.pairs import Pair, Reason, adjacent_pairs
+from linkforge_compile.collisions.scene import Pair, Reason, adjacent_pairs
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

@@ -155,6 +155,11 @@ class Inside(WithExtras):
     name: Annotated[str | None, Reference("part")] = None
     extra_inside: "Sequence[Inside]" = field(default=(), repr=False, kw_only=True)
 
+    @property
+    def key(self) -> str:
+        """The key of the element in `extra_inside`: its tag, and its name if any."""
+        return self.tag if self.name is None else f"{self.tag} {self.name}"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Element(WithExtras):

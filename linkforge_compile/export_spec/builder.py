@@ -101,7 +101,7 @@ class SpecBuilder:
     def element(self, part: Extended, /, **entries: YamlNode | None) -> YamlMap:
         """Return the object of a part: these entries, then its extras."""
         inside = part.extra_inside if isinstance(part, Element | Inside | Interface) else ()
-        inside_nodes = ((_tag(one), self.element(one)) for one in inside)
+        inside_nodes = ((one.key, self.element(one)) for one in inside)
         node = self.map_of(
             {
                 **entries,
@@ -205,10 +205,6 @@ class SpecBuilder:
 
     def _is_left_out(self, value: object, default: object) -> bool:
         return not self.full and value == default
-
-
-def _tag(one: Inside) -> str:
-    return one.tag if one.name is None else f"{one.tag} {one.name}"
 
 
 def _escaped(text: str) -> str:

@@ -172,7 +172,7 @@ def _inside(one: Inside) -> str:
     if numbered is not None:
         number = len(numbered)
         numbered.append(one)
-    return inside_text(number, inside_key(one), attributes(one), elements(one))
+    return inside_text(number, one.key, attributes(one), elements(one))
 
 
 _NUMBERED: ContextVar[list[Inside] | None] = ContextVar("_NUMBERED", default=None)
@@ -187,11 +187,6 @@ def numbering_insides() -> Iterator[list[Inside]]:
         yield numbered
     finally:
         _NUMBERED.reset(token)
-
-
-def inside_key(one: Inside) -> str:
-    """Return the key of an element in `extra_inside`: its tag, and its name if any."""
-    return one.tag if one.name is None else f"{one.tag} {one.name}"
 
 
 def inside_of(part: Extended) -> Sequence[Inside]:

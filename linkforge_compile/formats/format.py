@@ -198,9 +198,7 @@ class TemplateFormat(Format):
         else:
             from linkforge_compile.formats.user_templates import TemplateFolder
 
-            folder = templates if isinstance(templates, TemplateFolder) else TemplateFolder(templates)
-            folder.require_templates()
-            body = folder.xml(self._template, views, pretty=rendering.pretty)
+            body = TemplateFolder.of(templates).xml(self._template, views, pretty=rendering.pretty)
         return f"{_head(rendering)}{body}\n"
 
     @property

@@ -85,6 +85,13 @@ class TemplateFolder:
         self.documents = tuple(name.removesuffix(SUFFIX) for name in templates)
         """The names of the documents that its templates make, sorted."""
 
+    @classmethod
+    def of(cls, templates: TemplateFolder | str | Path) -> TemplateFolder:
+        """Return a folder of templates; raises what the constructor and `require_templates` raise."""
+        folder = templates if isinstance(templates, TemplateFolder) else cls(templates)
+        folder.require_templates()
+        return folder
+
     def require_templates(self) -> None:
         """Refuse a folder without a document, and without a template that overrides one of linkforge's.
 

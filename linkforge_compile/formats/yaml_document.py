@@ -40,9 +40,7 @@ def _text(template: str, views: Mapping[str, object], templates: Templates) -> s
         return render_own(template, views)
     from linkforge_compile.formats.user_templates import TemplateFolder
 
-    folder = templates if isinstance(templates, TemplateFolder) else TemplateFolder(templates)
-    folder.require_templates()
-    return folder.text(template, views)
+    return TemplateFolder.of(templates).text(template, views)
 
 
 def _without_origins(lines: list[str], origins: Origins) -> Iterator[tuple[str, tuple[Segment, ...]]]:

@@ -9,10 +9,11 @@ from typing import NamedTuple
 
 from yaml import tokens
 
-from linkforge_compile.formatter.pieces import Comment, Piece
-from linkforge_compile.formatter.scalars import (
+from linkforge_compile.formatter.pieces import (
     INDENT,
+    Comment,
     Indents,
+    Piece,
     block_scalar_lines,
     folded_lines,
     keeps_blank_lines,

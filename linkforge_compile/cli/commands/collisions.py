@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
     from linkforge_compile.analysis import Settings
     from linkforge_compile.collisions.matrix import Matrix
-    from linkforge_compile.collisions.pairs import Names
     from linkforge_compile.collisions.poses import Collision
     from linkforge_compile.collisions.sampling import SamplingSettings
+    from linkforge_compile.collisions.scene import Names
     from linkforge_compile.core.models.robot import Robot
 
 MAX_SHOWN = 20

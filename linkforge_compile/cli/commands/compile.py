@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkforge_compile.cli import UsageError
-from linkforge_compile.cli.build import Build, BuildRequest, compile_request, render_request
-from linkforge_compile.cli.delivery import deliver
+from linkforge_compile.cli.build import Build, BuildRequest, compile_request, deliver, render_request
 from linkforge_compile.cli.options import (
     add_format_options,
     add_spec_options,

@@ -32,7 +32,8 @@ def run(arguments: argparse.Namespace) -> int:
     from linkforge_compile.cli.output import write_to_stdout
 
     chosen = [_named(name) for name in arguments.names] or formats.FORMATS
-    write_to_stdout(_json_text(chosen) if arguments.json else "\n".join(map(_paragraph, chosen)))
+    paragraphs = ("".join(f"{row}\n" for row in _rows(one)) for one in chosen)
+    write_to_stdout(_json_text(chosen) if arguments.json else "\n".join(paragraphs))
     return OK
 
 
@@ -41,10 +42,6 @@ def _named(name: str) -> Format:
         return formats.format_named(name)
     except ValueError as error:
         raise UsageError(str(error)) from None
-
-
-def _paragraph(one: Format) -> str:
-    return "".join(f"{row}\n" for row in _rows(one))
 
 
 def _rows(one: Format) -> Iterator[str]:

@@ -8,9 +8,8 @@ import time
 from pathlib import Path
 
 from linkforge_compile.cli import OK, UsageError
-from linkforge_compile.cli.build import BuildRequest, compile_request, render_request
+from linkforge_compile.cli.build import BuildRequest, compile_request, deliver, render_request
 from linkforge_compile.cli.commands import compile as compile_command
-from linkforge_compile.cli.delivery import deliver
 from linkforge_compile.cli.reports import print_failure
 from linkforge_compile.cli.watching import Watched, repeat_on_changes
 from linkforge_compile.file_watcher import FileWatcher

@@ -44,7 +44,7 @@ class Mjcf(TemplateFormat):
         yield from mjcf_limits(robot, is_free=BASE.value(options) == "free")
 
     def keeps_relative_paths(self, robot: Robot, options: Options) -> bool:
-        from linkforge_compile.formats.mjcf.meshes import mesh_assets
+        from linkforge_compile.formats.mjcf.view import mesh_assets
 
         return mesh_assets(robot).folder is None
 

@@ -31,8 +31,7 @@ from linkforge_compile.diagnostics.codes.simulators import (
     WORLD_BELOW_JOINT,
 )
 from linkforge_compile.formats.kinematic_tree import WORLD, KinematicTree
-from linkforge_compile.formats.limits import check_texts
-from linkforge_compile.formats.losses import Loss, joint_losses, lost_xml
+from linkforge_compile.formats.limits import Loss, check_texts, joint_losses, lost_xml
 from linkforge_compile.formats.mjcf.bodies import (
     PLUGINS,
     accepted_inertia,
@@ -49,8 +48,7 @@ from linkforge_compile.formats.mjcf.joints import (
     has_gain,
     part_names,
 )
-from linkforge_compile.formats.mjcf.keyframes import INITIAL_VALUE, states_of
-from linkforge_compile.formats.mjcf.meshes import mesh_files
+from linkforge_compile.formats.mjcf.view import INITIAL_VALUE, mesh_files, states_of
 from linkforge_compile.formats.parts import doubtful_parts_in, doubtful_parts_of_urdf
 from linkforge_compile.source import SourceRef
 from linkforge_compile.units import finite_number

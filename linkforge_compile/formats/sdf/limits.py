@@ -31,8 +31,7 @@ from linkforge_compile.diagnostics.codes.simulators import (
 )
 from linkforge_compile.diagnostics.suggest import did_you_mean
 from linkforge_compile.formats.kinematic_tree import WORLD, leader_of
-from linkforge_compile.formats.limits import check_attributes, check_texts
-from linkforge_compile.formats.losses import Loss, joint_losses, lost_xml
+from linkforge_compile.formats.limits import Loss, check_attributes, check_texts, joint_losses, lost_xml
 from linkforge_compile.formats.mesh_paths import mesh_paths, reason_not_found, texture_paths
 from linkforge_compile.formats.parts import doubtful_parts_of_urdf
 from linkforge_compile.formats.sdf.layout import Layout
