@@ -3,20 +3,7 @@
 from __future__ import annotations
 
 from linkforge_compile.compare.context import TOLERANCE
-from linkforge_compile.compare.difference import Difference, Kind, Plain
+from linkforge_compile.compare.difference import Difference, Kind
 from linkforge_compile.compare.folders import with_folders
-from linkforge_compile.compare.matching import RemovedName, RemovedPart, removed_parts, removed_public_names
+from linkforge_compile.compare.matching import RemovedName, removed_parts, removed_public_names
 from linkforge_compile.compare.robots import compare
-
-__all__ = [
-    "TOLERANCE",
-    "Difference",
-    "Kind",
-    "Plain",
-    "RemovedName",
-    "RemovedPart",
-    "compare",
-    "removed_parts",
-    "removed_public_names",
-    "with_folders",
-]

@@ -10,18 +10,3 @@ from linkforge_compile.diagnostics.diagnostic import (
 )
 from linkforge_compile.diagnostics.sink import MAX_KEPT, BeyondLimitError, Diagnostics, too_many_errors
 from linkforge_compile.diagnostics.unresolved import DeletedNames, UnresolvedNames
-
-__all__ = [
-    "MAX_KEPT",
-    "BeyondLimitError",
-    "Code",
-    "DeletedNames",
-    "Diagnostic",
-    "Diagnostics",
-    "Note",
-    "Severity",
-    "UnresolvedNames",
-    "Where",
-    "notes_of",
-    "too_many_errors",
-]

@@ -3,5 +3,3 @@
 from linkforge_compile.editor.folders import TooManyFilesError, find_specs
 from linkforge_compile.editor.vocabulary import Vocabulary, read_vocabulary
 from linkforge_compile.editor.workspace_schema import without_parts, workspace_text
-
-__all__ = ["TooManyFilesError", "Vocabulary", "find_specs", "read_vocabulary", "without_parts", "workspace_text"]

@@ -49,16 +49,6 @@ from linkforge_compile.load.spec_tree import is_computed
 if TYPE_CHECKING:
     from linkforge_compile.expand.shared_modules import Sharing
 
-__all__ = [
-    "Arguments",
-    "CliArgument",
-    "Instance",
-    "Unset",
-    "arguments_from_text",
-    "arguments_from_values",
-    "expand",
-]
-
 
 def expand(
     spec: SpecFile,

@@ -4,21 +4,10 @@ from __future__ import annotations
 
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.export_spec.builder import SpecBuilder
-from linkforge_compile.export_spec.explain import ComputedFrom, Explanation, UnknownPathError, explain, parts_at
+from linkforge_compile.export_spec.explain import Explanation, UnknownPathError, explain, parts_at
 from linkforge_compile.export_spec.provenance import origin_of
 from linkforge_compile.export_spec.robot import spec_of
 from linkforge_compile.syntax.writer import write
-
-__all__ = [
-    "ComputedFrom",
-    "Explanation",
-    "SpecBuilder",
-    "UnknownPathError",
-    "explain",
-    "parts_at",
-    "spec_of",
-    "write_spec",
-]
 
 
 def write_spec(robot: Robot, *, banner: str | None = None, origins: bool = False) -> str:

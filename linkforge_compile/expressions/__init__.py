@@ -18,25 +18,3 @@ from linkforge_compile.expressions.types import (
     kind_name,
     seen_from_compiled,
 )
-
-__all__ = [
-    "FAULT",
-    "RESERVED_NAMES",
-    "Expression",
-    "Fault",
-    "FileFunction",
-    "Lazy",
-    "PathText",
-    "Scope",
-    "Template",
-    "Value",
-    "ValuePath",
-    "as_one_expression",
-    "as_text",
-    "evaluate",
-    "forgotten_expression",
-    "kind_name",
-    "parse_template",
-    "passed_on",
-    "seen_from_compiled",
-]

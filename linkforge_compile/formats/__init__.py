@@ -19,27 +19,6 @@ if TYPE_CHECKING:
     from linkforge_compile.core.models.robot import Robot
     from linkforge_compile.formats.user_templates import TemplateFolder
 
-__all__ = [
-    "FORMATS",
-    "JOINT_LIMITS",
-    "MJCF",
-    "MOVEIT",
-    "NO_OPTIONS",
-    "ROS2_CONTROLLERS",
-    "SDF",
-    "SRDF",
-    "URDF",
-    "Document",
-    "Format",
-    "Option",
-    "Options",
-    "Rendering",
-    "declared_options",
-    "format_named",
-    "formats_or_default",
-    "render_documents",
-    "require_options",
-]
 
 URDF, SRDF, SDF, MJCF = Urdf(), Srdf(), Sdf(), Mjcf()
 JOINT_LIMITS, ROS2_CONTROLLERS, MOVEIT = JointLimitsYaml(), Ros2Controllers(), MoveIt()

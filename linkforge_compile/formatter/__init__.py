@@ -11,5 +11,3 @@ continue on several lines, moves comments after anchors, and writes `False` and 
 from __future__ import annotations
 
 from linkforge_compile.formatter.safe_format import format_source, format_text
-
-__all__ = ["format_source", "format_text"]

@@ -15,5 +15,3 @@ What each module knows; it imports only those above it:
 
 from linkforge_compile.load.loader import ImportSite, Loader, SpecFile
 from linkforge_compile.load.locations import is_xacro
-
-__all__ = ["ImportSite", "Loader", "SpecFile", "is_xacro"]

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from linkforge_compile.lower.semantic import WrittenState
 
 
-__all__ = ["Lowered", "MeshSolids", "lower"]
-
 _SECTIONS_WITH_POSITIONS = frozenset({"transmissions", "gazebo"})
 """The sections with positions of joints, but for group states, which are resolved with those of modules."""
 

@@ -1,5 +1,3 @@
 """Is the tree the language? The schemas, and the judgement by them in human sentences."""
 
 from linkforge_compile.schema.validator import validate, validate_computed
-
-__all__ = ["validate", "validate_computed"]

@@ -8,25 +8,7 @@ from linkforge_compile.source.span import (
     Position,
     SourceFile,
     Span,
-    Trace,
     TracedSpan,
     span_of,
 )
 from linkforge_compile.source.text_place import place_of_byte
-
-__all__ = [
-    "Change",
-    "Key",
-    "Located",
-    "ModuleUse",
-    "Origin",
-    "Position",
-    "SourceFile",
-    "SourceRef",
-    "Sourced",
-    "Span",
-    "Trace",
-    "TracedSpan",
-    "place_of_byte",
-    "span_of",
-]

@@ -16,21 +16,3 @@ from linkforge_compile.syntax.nodes import (
     word_value,
 )
 from linkforge_compile.syntax.reader import read, read_data
-
-__all__ = [
-    "ScalarValue",
-    "Tags",
-    "YamlEntry",
-    "YamlFault",
-    "YamlList",
-    "YamlMap",
-    "YamlNode",
-    "YamlScalar",
-    "has_expression",
-    "is_null",
-    "leaves_in",
-    "read",
-    "read_data",
-    "scalar_value",
-    "word_value",
-]

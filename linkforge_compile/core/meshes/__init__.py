@@ -28,19 +28,6 @@ if TYPE_CHECKING:
 
     Triangles: TypeAlias = NDArray[np.float64]  # shape (triangles, 3 corners, 3 coordinates)
 
-__all__ = [
-    "IS_LFS_POINTER",
-    "LFS_POINTER",
-    "MAX_BYTES",
-    "MAX_NODES",
-    "MAX_TRIANGLES",
-    "MeshError",
-    "MeshFault",
-    "collada_triangles",
-    "solid_in",
-    "solids_of",
-    "triangles_in",
-]
 
 MAX_TRIANGLES = 400_000
 """A mesh of this size takes less than ten seconds and 512 MB."""

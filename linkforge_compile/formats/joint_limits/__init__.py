@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Document, Options, Rendering
     from linkforge_compile.formats.views import View
 
-__all__ = ["JointLimitsYaml"]
-
 
 class JointLimitsYaml(Format):
     """The joint_limits.yaml of MoveIt."""

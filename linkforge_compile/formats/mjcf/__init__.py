@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Options
     from linkforge_compile.formats.views import View
 
-__all__ = ["BASE", "Mjcf"]
 
 BASE = Option("base", ("fixed", "free"), "fixed", "whether the robot floats in MuJoCo (default: fixed)")
 

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Document, Options, Rendering
     from linkforge_compile.formats.views import View
 
-__all__ = ["MoveIt"]
 
 _WHOLE_FILES: Mapping[str, Format] = {
     "config/robot.urdf": Urdf(),

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Document, Options, Rendering
     from linkforge_compile.formats.views import View
 
-__all__ = ["Ros2Controllers"]
-
 
 class Ros2Controllers(Format):
     """The parameters of the controllers that a controller manager loads."""

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.sdf.view import SdfChoices
     from linkforge_compile.formats.views import View
 
-__all__ = ["MESHES", "NESTED", "VERSION", "Sdf"]
 
 VERSION = Option(
     "sdf",

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Options
     from linkforge_compile.formats.views import View
 
-__all__ = ["Srdf"]
-
 
 class Srdf(TemplateFormat):
     """The format SRDF, of robots with a semantic part."""

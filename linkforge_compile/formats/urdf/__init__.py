@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from linkforge_compile.formats.format import Options
     from linkforge_compile.formats.views import View
 
-__all__ = ["GAZEBO", "Gazebo", "Urdf"]
 
 Gazebo: TypeAlias = Literal["gz", "classic"]
 """The simulator whose dialect the tags of sensors have: Gazebo Sim (Harmonic) or Gazebo Classic (11)."""

@@ -10,5 +10,3 @@ from linkforge_compile.importers.xacro.run import (
     plain_message,
     run_xacro,
 )
-
-__all__ = ["Expanded", "Failed", "MacroCall", "Place", "XacroAnswers", "moved_back", "plain_message", "run_xacro"]

@@ -20,8 +20,6 @@ from linkforge_compile.lsp.completion.values import offer_values
 from linkforge_compile.lsp.cursor import Role, find_cursor
 from linkforge_compile.lsp.workspace import Document
 
-__all__ = ["TRIGGERS", "Client", "complete"]
-
 TRIGGERS = (" ", "(", "'", '"', "/", ".", "{", "[")
 """The characters after which an editor asks for completions, besides those of words."""
 

@@ -26,8 +26,6 @@ from linkforge_compile.lsp.placed import placed_at
 from linkforge_compile.lsp.workspace import Document
 from linkforge_compile.source import Position
 
-__all__ = ["hover"]
-
 
 def hover(document: Document, position: types.Position, settings: Settings) -> types.Hover | None:
     """Return what is known of a position, in Markdown; `settings` are those that specs are analysed with."""
