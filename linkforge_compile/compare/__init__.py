@@ -1,4 +1,4 @@
-"""Compare two robots: which parts are new, gone, renamed or moved, and which values changed by how much."""
+"""Compare two robots: which parts were added, removed, renamed or moved, and by how much values changed."""
 
 from __future__ import annotations
 

@@ -38,7 +38,8 @@ class CompareContext(NamedTuple):
 
     Each pair is for the robot before and the robot after: `prismatic_joints` their names, `slides` whether the value
     is about one of them, `measures` what the value measures, `palettes` the materials that the robots declare.
-    In an author's XML, `in_xml`, numbers have several spellings, unless each is another text, `as_spelt`.
+    `in_xml`: the value is in an author's XML, where one number may be spelled in several ways. `as_spelt`: each
+    spelling there is a different text.
     """
 
     tolerance: float = TOLERANCE
@@ -79,7 +80,7 @@ class CompareContext(NamedTuple):
         return self.for_section(field)._replace(measures=(before, after), as_spelt=as_spelt)
 
     def for_tag(self, tag: str) -> CompareContext:
-        """Return the context of what is in an element of an author's XML."""
+        """Return the context of the content of an element in an author's XML."""
         return self._replace(as_spelt=True) if tag == "plugin" else self
 
 

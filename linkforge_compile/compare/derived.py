@@ -1,4 +1,4 @@
-"""Compare what follows from several fields: poses, inertias, and orders that have a meaning."""
+"""Compare values that depend on several fields: poses, inertias, and orders that have a meaning."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def order_differences(path: tuple[str, ...], before: object, after: object) -> I
 
 
 def _reordered_ends(path: tuple[str, ...], before: Transmission, after: Transmission) -> Iterator[Difference]:
-    """Yield where joints or actuators of a transmission changed places; the place decides their role in it."""
+    """Yield where joints or actuators of a transmission changed places, and so their roles."""
     for key, old, new in (("joints", before.joints, after.joints), ("actuators", before.actuators, after.actuators)):
         were, are = [end.name for end in old], [end.name for end in new]
         if were != are and sorted(were) == sorted(are):

@@ -114,7 +114,7 @@ def shorten(text: str, limit: int = _MAX_TEXT) -> str:
     line = " ".join(text.split())
     if len(line) <= limit:
         return line
-    # Of a path, which has no spaces, both ends are shown.
+    # A path has no spaces; both of its ends are shown.
     end = 0 if " " in line else limit // 2
     return f"{line[: limit - 1 - end]}…{line[len(line) - end :]}"
 

@@ -25,7 +25,7 @@ _KEYS = {
     "gazebo_elements": "gazebo",
     "extra_elements": "extra",
 }
-"""Keys in paths where the spec of a field has none, or another."""
+"""Keys in paths of fields whose spec has no key, or a different one."""
 _STATED_FIELDS = frozenset({"stated", "interfaces_stated", "version_stated"})
 """Fields that name the fields written with their default; `stated_differences` compares them."""
 
@@ -36,8 +36,7 @@ _NO_FIELDS: Mapping[type, Collection[str]] = {}
 class RawElement:
     """An element of raw XML; `written` is all of it as text.
 
-    `texts` are the texts before, between and after its child elements: at least one, and none after the last that is
-    not blank.
+    `texts` are the texts before, between and after its child elements: at least one, without blank ones at the end.
     """
 
     tag: str

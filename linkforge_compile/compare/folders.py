@@ -14,9 +14,9 @@ from linkforge_compile.core.models.ros2_control import Interface
 
 
 def with_folders(robot: Robot, folders: Mapping[str, str]) -> Robot:
-    """Return a robot in whose texts and meshes absolute paths below some folders have others instead.
+    """Return a robot with absolute paths below some folders, in texts and meshes, moved to other folders.
 
-    `folders` are absolute, the new ones by the old ones. Only what is compared is complete in the result.
+    `folders` are absolute, the new ones by the old ones. Only fields that are compared are complete in the result.
     """
     moved = {old: new for old, new in folders.items() if old != new}
     if not moved:
@@ -30,7 +30,7 @@ def with_folders(robot: Robot, folders: Mapping[str, str]) -> Robot:
 
 
 def _map_texts(value: object, change: Callable[[str], str]) -> object:
-    """Return a value with all texts in it changed; the value itself if none is."""
+    """Return a value with all texts in it changed; the value itself if no text changes."""
     match value:
         case _ if is_dataclass(value) and not isinstance(value, type):
             old = {name: getattr(value, name) for name in compared_fields(value)}

@@ -185,7 +185,7 @@ def _links_by_parent(robot: Robot, *, without: Robot) -> dict[str | None, _Links
 
 
 def _parents_first(robot: Robot) -> Iterator[str]:
-    """Yield the links from the roots down, without cycles that no root leads to."""
+    """Yield the links from the roots down, except cycles that no root leads to."""
     above = parent_joints(robot.joints)
     roots = [link.name for link in robot.links if link.name not in above]
     yield from roots
@@ -261,7 +261,7 @@ class Pair(NamedTuple):
 
 
 def key_of_member(item: object) -> str:
-    """Return the name that identifies a member of a list; empty where only its index does."""
+    """Return the name that identifies a member of a list; empty if only the index does."""
     match item:
         case str():
             return str(item)

@@ -189,7 +189,7 @@ def stated_differences(path: Path, before: object, after: object, context: Compa
 
 
 def _stated_fields(part: object) -> tuple[str, ...]:
-    """Return the fields that a part writes out although they have their default, and perhaps other written ones."""
+    """Return the fields that a part writes out although they have their default; there may be others among them."""
     match part:
         case LinkPhysics() | SensorNoise():
             return tuple(part.stated)
@@ -304,7 +304,7 @@ def _compare_sections(
 def _section(robot: Robot, field: str, renames: Renames) -> object:
     if field == "semantic":
         semantic = robot.semantic
-        # It repeats the robot's name, whose change is reported once.
+        # This repeats the robot's name, whose change is reported only once.
         is_repeated = semantic.robot_name == robot.name
         return apply_renames(semantic.with_fields(robot_name="") if is_repeated else semantic, renames)
     section = compared_value(robot, field)

@@ -29,7 +29,7 @@ Given: TypeAlias = Mapping[str, bool | int | float | Words | Sequence[float | st
 
 
 def substitutions_of(name: str, value: object) -> list[Substitution]:
-    """Return what gives the text of a value; TypeError, which names the parameter, for one that no launch file has."""
+    """Return the substitutions that give a value as text; TypeError, with the name, for a value of another type."""
     if isinstance(value, bool):
         value = "true" if value else "false"
     elif isinstance(value, int | float):
@@ -48,7 +48,7 @@ def substitutions_of(name: str, value: object) -> list[Substitution]:
 
 
 def _number(value: float) -> str:
-    # numpy's are floats that show as another thing.
+    # The numbers of numpy are floats whose repr is not that of a float.
     return repr(int(value)) if isinstance(value, int) else repr(float(value))
 
 
@@ -63,10 +63,10 @@ def _vector(items: Sequence[object]) -> list[object]:
 class LaunchArguments:
     """The launch arguments of the parameters of a spec that the launch file does not give itself.
 
-    `parameters` and `variant` are what the launch file gives. `prefix` stands before the names of the arguments.
+    `parameters` and `variant` are those that the launch file gives. `prefix` precedes the names of the arguments.
 
     Raises:
-        TypeError: A value is nothing that a launch file can give, or the parameters are no map.
+        TypeError: A launch file cannot give a value of this type, or the parameters are not a map.
         ValueError: The spec has no such variant or parameter.
 
     """
@@ -80,7 +80,7 @@ class LaunchArguments:
         self._given = {name: substitutions_of(name, value) for name, value in (parameters or {}).items()}
         self._variant = substitutions_of("variant", variant) if variant else None
         self._refuse_unknown()
-        # Of a variant that is known at a launch only, the defaults that show are those of the spec.
+        # If the variant is known only at launch, the defaults shown are those of the spec.
         sets = self._sets_of(variant) if variant and isinstance(variant, str) else {}
         self._defaults = {one.name: sets.get(one.name, one.default) for one in listing.parameters}
 
@@ -91,7 +91,7 @@ class LaunchArguments:
     def _declaration(self, parameter: ListedParameter) -> DeclareLaunchArgument:
         default = self._defaults[parameter.name]
         choices = None
-        # launch compares texts: of a quantity or a flag there are many, and the compiler checks those.
+        # launch compares texts; a quantity or a flag can be written in many ways, so the compiler checks those.
         if parameter.choices and parameter.type in {"string", "integer"}:
             texts = list(map(str, parameter.choices))
             choices = texts if default is None or default in texts else None
@@ -102,7 +102,7 @@ class LaunchArguments:
         )
 
     def _refuse_unknown(self) -> None:
-        # What a xacro file includes may depend on its arguments, and declare more.
+        # The files that a xacro includes may depend on its arguments and declare further ones.
         if is_xacro(self._spec):
             return
         declared = [one.name for one in self._listing.parameters]
@@ -124,7 +124,7 @@ class LaunchArguments:
         return variant, values
 
     def _assignments(self, context: LaunchContext) -> dict[str, CliArgument]:
-        """Return what sets parameters; one that has its default is left to the spec, which may compute it."""
+        """Return the values of parameters; one at its default is omitted, since the spec may compute the default."""
         values = {
             name: CliArgument("<launch file>", name, perform_substitutions(context, value))
             for name, value in self._given.items()
@@ -137,7 +137,7 @@ class LaunchArguments:
         return values
 
     def _require_values(self, variant: str | None, values: Mapping[str, CliArgument]) -> None:
-        """Refuse missing values in words that suit launch files; the compiler's name options of the command."""
+        """Refuse missing values with a message for launch files; that of the compiler names command-line options."""
         try:
             sets = self._sets_of(variant)
         except ValueError as error:
@@ -152,7 +152,7 @@ class LaunchArguments:
             )
 
     def _sets_of(self, variant: str | None) -> Mapping[str, str]:
-        """Return what a variant sets, or several (`a+b`); ValueError for one that the spec does not have."""
+        """Return the values that a variant, or several (`a+b`), sets; ValueError for an unknown variant."""
         variants = self._listing.variants
         sets: dict[str, str] = {}
         for name in names_in_variant(variant, variants):
@@ -164,7 +164,7 @@ class LaunchArguments:
 
 
 def _did_you_mean(name: str, declared: Sequence[str], things: str) -> str:
-    """Return the declared name that is like an unknown one, else all declared ones."""
+    """Return a hint with the declared name that resembles an unknown one, else with all declared names."""
     from linkforge_compile.diagnostics.suggest import did_you_mean
 
     there_are = f"; its {things} are {', '.join(declared)}" if declared else f"; it declares no {things}"

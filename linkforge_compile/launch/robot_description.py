@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 class LaunchedText(Substitution):  # type: ignore[misc]  # the launch package has no types
-    """A text that is made when it is launched; `title` is shown for it."""
+    """A text that is made at launch; `title` describes it."""
 
     def __init__(self, title: str, make: Callable[[LaunchContext], str]) -> None:
         super().__init__()
@@ -49,7 +49,7 @@ class LaunchedText(Substitution):  # type: ignore[misc]  # the launch package ha
 
 
 class LaunchedFile(Substitution):  # type: ignore[misc]  # the launch package has no types
-    """The path of a file with a text, which is written when it is launched; `make_path` is called then."""
+    """The path of a file with a text, which is written at launch by `make_path`."""
 
     def __init__(self, text: LaunchedText, make_path: Callable[[], Path]) -> None:
         super().__init__()
@@ -83,7 +83,7 @@ class _Compiled(NamedTuple):
     options: Options
 
     def is_current(self, context: LaunchContext, values: Values) -> bool:
-        # Another launch reports the warnings as well, and may have another environment.
+        # Another launch reports the warnings again, and may have a different environment.
         return self.launch() is context and self.values == values and not self.files.poll()
 
     def text(self, format_: Format, document: str) -> str:
@@ -118,13 +118,13 @@ class RobotDescription:
         """`parameters` are values or substitutions; the other words are those of `compile_file`.
 
         A list with a number in it is a vector; any other is one text in parts, as everywhere in launch. `variant` may
-        be a substitution, too; one that gives no text is no variant.
+        be a substitution, too; an empty text selects no variant.
 
-        `argument_prefix` stands before the names of the launch arguments, for two robots in one launch file.
+        `argument_prefix` precedes the names of the launch arguments, for two robots in one launch file.
 
         Raises:
             CompileError: The parameters of the spec cannot be listed.
-            TypeError: A value is nothing that a launch file can give, or the parameters are no map.
+            TypeError: A launch file cannot give a value of this type, or the parameters are not a map.
             ValueError: The spec has no such variant or parameter, or no format has such an option.
 
         """
@@ -204,7 +204,7 @@ class RobotDescription:
         return self._compiled
 
     def _compile(self, variant: str | None, values: Mapping[str, CliArgument]) -> tuple[Robot, Sequence[Path]]:
-        """Return the robot, and the files on which it depends, those that are missing as well."""
+        """Return the robot and the files on which it depends, including missing ones."""
         compilation = compile_file(
             self.spec,
             parameters=values,

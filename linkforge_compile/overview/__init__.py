@@ -1,1 +1,1 @@
-"""What a robot is at a glance: values such as those of `tree`, and their text in modules named after the form."""
+"""Overviews of a robot: values, such as its tree, and modules that write them in a form, such as `tree_text`."""

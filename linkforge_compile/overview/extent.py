@@ -118,14 +118,14 @@ def _box_of_points(points: NDArray[np.float64], mesh: Mesh, pose: Pose) -> list[
 
 
 AT_REST = Pose.of(IDENTITY)
-"""The pose of a frame in itself."""
+"""The pose of a frame relative to itself."""
 
 
 class Reach(NamedTuple):
-    """The greatest distance of a link's origin from that of a start link has this upper bound [m].
+    """An upper bound of the distance between the origins of a link and of a start link [m].
 
-    It is the sum of the lengths between the joints that move, on the way from `start` to `link`, with prismatic joints
-    at the end of their range that is farther. The true distance may be less, as limits may keep the robot from
+    It is the sum of the lengths between the movable joints from `start` to `link`, with each prismatic joint at the
+    farther end of its range. The true distance may be less, as limits may keep the robot from
     stretching out.
     """
 
@@ -135,7 +135,7 @@ class Reach(NamedTuple):
 
 
 class _Span(NamedTuple):
-    """The greatest distance of the last joint that moves [m], and the pose of a link in its frame."""
+    """The greatest distance of the last movable joint [m], and the pose of a link in its frame."""
 
     bound: float
     fixed: Pose
@@ -157,7 +157,7 @@ def zero_poses(robot: Robot) -> dict[str, Pose]:
 
 
 def reaches_from(robot: Robot, start: str) -> dict[str, Reach]:
-    """Return the reach of each link below a start link, without those that planar and floating joints carry."""
+    """Return the reach of each link below a start link, except those below planar and floating joints."""
     spans: dict[str, _Span] = {start: _Span(0.0, AT_REST)}
     for visit in walk_depth_first((start,), child_joints(robot.joints)):
         joint = visit.joint
@@ -185,9 +185,9 @@ def _next_span(robot: Robot, span: _Span, joint: Joint) -> _Span | None:
 
 
 def _range(robot: Robot, joint: Joint, followers: Sequence[str] = ()) -> tuple[float, float]:
-    """Return the positions between which a joint is, as one that follows another one is driven; 0 for no limit.
+    """Return the range of a joint, with the positions to which the joint that it follows drives it; 0 for no limit.
 
-    A continuous joint turns without an end.
+    A continuous joint has no end.
     """
     if joint.type is JointType.CONTINUOUS:
         return -math.inf, math.inf
@@ -201,5 +201,5 @@ def _range(robot: Robot, joint: Joint, followers: Sequence[str] = ()) -> tuple[f
 
 
 def farthest(reaches: Mapping[str, Reach]) -> Reach:
-    """Return the reach of the link that may get farthest, the first of several."""
+    """Return the largest reach of a link, the first of several."""
     return max(reaches.values(), key=lambda reach: reach.bound)

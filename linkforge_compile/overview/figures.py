@@ -1,4 +1,4 @@
-"""The figures of a robot that are asked for first: counts, masses, sizes, files and parts by kind."""
+"""Key figures of a robot: counts, masses, sizes, files and parts by kind."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Mass(NamedTuple):
 
 
 class MeshFile(NamedTuple):
-    """The file of a mesh as it is written, its size [bytes], and why it is not known if it is None."""
+    """The file of a mesh as it is written, its size [bytes], and the reason if that is None."""
 
     resource: str
     size: int | None
@@ -55,8 +55,8 @@ class Figures(NamedTuple):
     """What `linkforge info` shows.
 
     - `joints`: how many there are of each type; `degrees_of_freedom` leaves out joints that follow others.
-    - `reach`: that of the link that may get farthest from the root, which is not below planar and floating joints.
-    - `modules`: names of modules, and of those in them after a slash, with the number of their links.
+    - `reach`: the largest from the root, of the links that are not below planar and floating joints.
+    - `modules`: the number of links by the name of the module, inner ones after a slash.
     """
 
     name: str
@@ -78,7 +78,7 @@ class Figures(NamedTuple):
 
 
 def figures_of(robot: Robot) -> Figures:
-    """Return the figures of a robot that is one tree; every file of a mesh is read if its library is installed."""
+    """Return the figures of a robot that is one tree; mesh files are read if the library is installed."""
     poses = zero_poses(robot)
     root = next(iter(poses))
     files = mesh_files(robot)

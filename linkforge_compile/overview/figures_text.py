@@ -22,7 +22,7 @@ _LABEL = 16
 _MOST_NAMES = 12
 """How many names of one kind are shown in text."""
 _NEGLIGIBLE = 1e-9
-"""A length that is 0 but for rounding [m]."""
+"""A length below this is a rounding error [m]."""
 
 
 def render_figures(figures: Figures, listing: Listing | None) -> Iterator[str]:
@@ -31,7 +31,7 @@ def render_figures(figures: Figures, listing: Listing | None) -> Iterator[str]:
     yield ""
     rows = (_labeled(*row) for row in _motion_rows(figures))
     others = (_labeled(*row) for row in (*_part_rows(figures), *_source_rows(figures, listing)))
-    # Names of files and plugins are those of a spec that may be a stranger's.
+    # The names of files and plugins may come from an untrusted spec.
     yield from map(on_one_line, chain(chain.from_iterable(rows), _mesh_lines(figures.meshes), *others))
 
 
@@ -65,7 +65,7 @@ def _part_rows(figures: Figures) -> Iterator[tuple[str, str]]:
 
 
 def _source_rows(figures: Figures, listing: Listing | None) -> Iterator[tuple[str, str]]:
-    """Yield what the spec has of its own."""
+    """Yield the figures of the spec itself."""
     if listing and listing.parameters:
         yield "parameters", ", ".join(map(_parameter_text, listing.parameters))
     if listing and listing.variants:

@@ -1,4 +1,4 @@
-"""The graph of a robot: its links in an order in which those of a module are together, and the modules around them."""
+"""The graph of a robot: its links, ordered so that those of a module are together, and the modules around them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ Path: TypeAlias = tuple[str, ...]
 
 
 class ModuleRun(NamedTuple):
-    """Rows in a sequence that are of one module, from the first to the last.
+    """Consecutive rows of one module, from the first to the last.
 
-    `height` is how many runs are inside each other in it. A module has several runs if others are mounted between.
+    `height` is how deeply runs are nested in it. A module has several runs if others are mounted between.
     """
 
     module: Path
@@ -26,7 +26,7 @@ class ModuleRun(NamedTuple):
 
 
 class ModuleBox(NamedTuple):
-    """A module with the links that are its own, and the modules in it; that of the robot itself has no name."""
+    """A module with its own links, and the modules in it; the module of the robot itself has no name."""
 
     module: Path
     links: list[str]
@@ -38,7 +38,7 @@ class ModuleBox(NamedTuple):
 
 
 def order_by_module(rows: Sequence[TreeRow]) -> list[TreeRow]:
-    """Return the rows of a tree depth first, at each link the branches last that lead to other modules."""
+    """Return the rows of a tree depth first; at each link, branches to other modules come last."""
     below: list[list[int]] = [[] for _ in rows]
     around = [row.modules for row in rows]  # the innermost module that holds all of a branch
     path: list[int] = []
@@ -84,7 +84,7 @@ def module_runs(rows: Iterable[TreeRow]) -> list[ModuleRun]:
 
 
 def module_boxes(rows: Iterable[TreeRow]) -> ModuleBox:
-    """Return the modules of a robot inside each other, with their links in the order of the rows."""
+    """Return the nested modules of a robot, with their links in the order of the rows."""
     whole = ModuleBox((), [], [])
     by_module = {whole.module: whole}
     for row in rows:
@@ -99,7 +99,7 @@ def module_boxes(rows: Iterable[TreeRow]) -> ModuleBox:
 
 
 def walk_boxes(box: ModuleBox) -> Iterator[ModuleBox]:
-    """Yield a module and all in it."""
+    """Yield a module and all modules in it."""
     yield box
     for inner in box.boxes:
         yield from walk_boxes(inner)

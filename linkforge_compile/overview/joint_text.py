@@ -1,4 +1,4 @@
-"""Joints in a few words: their axis, the range of their motion, and what they follow, in the units of people."""
+"""Joints in a few words: axis, range of motion, and the joint that they follow, with angles in degrees."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _AXIS_NAMES = {vector.to_tuple(): name for name, vector in AXES.items()}
 
 
 def short(value: float) -> str:
-    """Return a number with six digits, which a person reads."""
+    """Return a number with six digits."""
     return number_text(float(f"{value:.6g}"))
 
 
@@ -34,7 +34,7 @@ def edge_text(joint: Joint) -> str:
 
 
 def motion_text(joint: Joint) -> str:
-    """Return where a joint can be, such as `-90 to 90 deg`, or what it follows; "" for one without one position."""
+    """Return the range of a joint, such as `-90 to 90 deg`, or the joint that it follows; "" without a single axis."""
     if joint.type not in SINGLE_AXIS:
         return ""
     if joint.mimic:

@@ -44,5 +44,5 @@ def _edge(joint: Joint, nodes: Mapping[str, str]) -> str:
 
 
 def _escaped(text: str) -> str:
-    """Return a text with all but letters, digits and plain punctuation as codes, so that none is syntax."""
+    """Return a text in which only letters, digits and plain punctuation are not written as codes."""
     return "".join(char if char.isalnum() or char in _PLAIN else f"#{ord(char)};" for char in text)

@@ -1,6 +1,6 @@
 """The graph of a robot as a picture: a row for each link, indented by depth, with its modules as boxes.
 
-Widths of texts are estimated, as no font is at hand: those of monospaced fonts are much alike.
+Text widths are estimated, since the font is unknown: monospaced fonts have similar widths.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ MARGIN, TITLE_HEIGHT = 16, 40
 ROW, NODE_HEIGHT, INDENT = 30, 22, 28
 BOX_HEADER, BOX_FOOTER, BOX_PADDING = 22, 8, 7
 LINK_CHARACTER, JOINT_CHARACTER = 8, 7
-"""How wide a character of the names of links and joints is."""
+"""The width of a character in the names of links and of joints."""
 LARGEST_INDENT = 60
-"""How many levels are indented."""
+"""The largest number of levels that are indented."""
 
 
 class Node(NamedTuple):
-    """A link at its left upper corner, with the line from the link above it, a path of SVG, and the joint there.
+    """A link, by its upper left corner, with an SVG path from the link above it, and the joint between them.
 
     `kind` of the joint is `fixed`, `moving`, or `following` for one with mimic.
     """
@@ -119,7 +119,7 @@ def _kind(joint: Joint | None) -> str:
 
 
 def _box(run: ModuleRun, rows: Sequence[TreeRow], nodes: Sequence[Node]) -> Box:
-    """Return the rectangle of a run, which reaches to the right as far as its links."""
+    """Return the rectangle of a run, as wide as its links and its name."""
     inside, level = nodes[run.first : run.last + 1], len(run.module)
     x = min(node.x for node in inside) - BOX_PADDING * run.height
     y = inside[0].y - BOX_HEADER * (len(rows[run.first].modules) - level + 1)

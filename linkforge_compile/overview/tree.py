@@ -16,7 +16,7 @@ class TreeRow(NamedTuple):
 
     - `mass`: [kg], None for a link without inertia.
     - `modules`: the names of the modules that the link is in, the outermost first.
-    - `is_again`: the joint closes a loop or is a second one to this link, which has another row.
+    - `is_again`: the link has another row, and this joint closes a loop or is a second joint to the link.
     - `hidden`: how many rows are below it that `cut_below` left out.
     """
 
@@ -43,7 +43,7 @@ def tree_rows(robot: Robot) -> list[TreeRow]:
 
 
 def cut_below(rows: Iterable[TreeRow], depth: int) -> list[TreeRow]:
-    """Return the rows down to a depth; the last ones count what is below them."""
+    """Return the rows down to a depth; the last ones have the number of rows below them."""
     kept: list[TreeRow] = []
     for row in rows:
         if row.depth <= depth:
@@ -54,7 +54,7 @@ def cut_below(rows: Iterable[TreeRow], depth: int) -> list[TreeRow]:
 
 
 def tree_document(robot: Robot, rows: Iterable[TreeRow]) -> dict[str, object]:
-    """Return the tree for tools, as JSON has it: numbers in SI units, None for what there is not."""
+    """Return the tree as values for JSON, with numbers in SI units and None for absent ones."""
     return {"version": 1, "name": robot.name, "links": list(map(_link_document, rows))}
 
 

@@ -14,17 +14,17 @@ WIDTH = 100
 """The columns into which the tree fits where there is no terminal, unless names are too long [characters]."""
 
 MOST_INDENTED = 24
-"""How many levels are indented; a deeper link has the number of its level before its name."""
+"""The largest number of levels that are indented; a deeper link has the number of its level before its name."""
 
 MOST_INDENTED_IN_LINES = 6
 """The same in a tree without columns, which is for narrow terminals."""
 
 LONGEST_POSITION = 24
-"""A longer text of a position, which names another joint, has a line of its own in a narrow tree [characters]."""
+"""A position with a longer text, such as a joint that it follows, gets its own line in a narrow tree [characters]."""
 
 
 class Lines(NamedTuple):
-    """What a tree is drawn with, the lines with three characters each."""
+    """The characters that draw a tree; each piece of a line has three."""
 
     branch: str
     last: str
@@ -46,7 +46,7 @@ def lines_for(encoding: str | None) -> Lines:
 
 
 def render_links(rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored: bool = False) -> Iterator[str]:
-    """Yield the tree with the names of the links alone."""
+    """Yield the tree with only the names of the links."""
     for branch in _branches(rows, lines, 3):
         yield branch.drawn(branch.width, is_colored)
 
@@ -54,7 +54,7 @@ def render_links(rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored:
 def render_tree(
     rows: Sequence[TreeRow], lines: Lines = UNICODE, *, is_colored: bool = False, width: int = WIDTH
 ) -> Iterator[str]:
-    """Yield titles and a line for each link; where that is too wide, each joint has a line of its own, or two."""
+    """Yield titles and a line for each link; if that is too wide, each joint gets one or two lines of its own."""
     wide, narrow = (_branches(rows, lines, step) for step in (3, 2))
     shallow = _branches(rows, lines, 2, MOST_INDENTED_IN_LINES)
     columns = (_in_columns(rows, wide), _in_columns(rows, narrow))

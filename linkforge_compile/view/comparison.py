@@ -1,4 +1,4 @@
-"""Two robots over each other: the scene of the robot after, with that of the robot before and what differs."""
+"""Two robots drawn over each other: the scenes of the new and the old robot, and their differences."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from linkforge_compile.view.files import MAX_ALL_BYTES, RobotFiles, collect_file
 from linkforge_compile.view.scene import Scene, SceneDifference, SceneLink, make_scene
 
 _STRENGTH = (Kind.CHANGED, Kind.RENAMED, Kind.MOVED, Kind.ADDED, Kind.REMOVED)
-"""Of several kinds of differences of a link, the last one here is shown."""
+"""If a link has several kinds of differences, the one that comes last here is shown."""
 
 
 def make_comparison(
@@ -23,10 +23,10 @@ def make_comparison(
     """Return the scene of two robots with the files of both.
 
     `labels` are the names of the robots in headings, `differences` those of `compare`, and `removed` the public names
-    that are gone. What differs in a joint is shown at its child link.
+    that were removed. A difference in a joint is shown at its child link.
     """
     found = [_scene_difference(one, before, after) for one in differences]
-    # A file of the same name may have another content.
+    # Files with the same name may have different contents.
     files_before, files = (collect_files(robot, MAX_ALL_BYTES // 2) for robot in (before, after))
     scene_before, scene = make_scene(before, files_before), make_scene(after, files)
     found += _other_contents(scene_before, scene, found)
@@ -49,7 +49,7 @@ def make_comparison(
 
 
 def _other_contents(before: Scene, after: Scene, found: Sequence[SceneDifference]) -> Iterator[SceneDifference]:
-    """Yield a difference for each link that is the same but for the content of its files."""
+    """Yield a difference for each link of which only the content of files changed."""
     known, was = {one["link"] for one in found}, {link["name"]: link for link in before["links"]}
     for link in after["links"]:
         other = was.get(link["name"])
@@ -87,7 +87,7 @@ def _link(difference: Difference, before: Robot, after: Robot) -> str | None:
 
 
 def _kinds(differences: Sequence[SceneDifference]) -> dict[str, str]:
-    """Return what happened to each link that differs; a part of a link that is new or gone changes the link."""
+    """Return what happened to each link that differs; a new or removed part of a link is a change of the link."""
     kinds: dict[str, Kind] = {}
     for one in differences:
         if (link := one["link"]) is None:

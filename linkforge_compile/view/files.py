@@ -28,7 +28,7 @@ MAX_BYTES = 128 * 1024 * 1024
 """The largest file that is shown."""
 
 MAX_ALL_BYTES = 256 * 1024 * 1024
-"""The most that all files of a robot have together: browsers open no larger page."""
+"""The limit of the size of all files of a robot together; browsers cannot open a larger page."""
 
 MAX_NAMED = 1000
 """The most files that the meshes and materials of a robot may name."""
@@ -76,7 +76,7 @@ class RobotFiles(NamedTuple):
 
 
 class _Wanted(NamedTuple):
-    """A file that shapes name: of which kinds it may be, the links of the shapes, and the first place."""
+    """A file that shapes name: the kinds that it may have, the links of the shapes, and the first place."""
 
     kinds: frozenset[str]
     links: dict[str, None]
@@ -100,7 +100,7 @@ def collect_files(robot: Robot, most: int | None = None) -> RobotFiles:
 
 
 def not_reported(missing: Iterable[MissingFile], diagnostics: Iterable[Diagnostic]) -> list[MissingFile]:
-    """Return the files that no diagnostic is about; one may be about many of a folder, and name the first of them."""
+    """Return the files without a diagnostic; one may be about several files of a folder and name only the first."""
     missing = tuple(missing)
     places = {place for one in diagnostics for place in (one.span, *(note.span for note in one.notes))}
     reported = {_kind_of_fault(one) for one in missing if one.use.place in places}
@@ -141,7 +141,7 @@ class _Reader:
         self.paths: list[Path] = []
 
     def take_faults(self) -> list[tuple[str, str]]:
-        """Return the files that were named in those read since the last call and are missing, with the reasons."""
+        """Return the missing files that were named by files read since the last call, with the reasons."""
         faults, self._faults = self._faults, []
         return faults
 
@@ -163,7 +163,7 @@ class _Reader:
     def _add(self, path: Path, kind: str) -> str:
         content = self._content(path)
         uses = dict(self._named_in(path, kind, content))
-        # Two files of the same content may name different files of the same name in their folders.
+        # Two files with the same content may name different files, by the same name in their own folders.
         parts = (kind, *(part for pair in sorted(uses.items()) for part in pair))
         digest = sha256("\0".join(parts).encode("utf-8", "surrogateescape") + b"\0" + content).hexdigest()[:_DIGITS]
         self.files.setdefault(digest, File(path.name, kind, content, uses))

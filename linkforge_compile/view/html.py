@@ -1,4 +1,4 @@
-"""The page with a scene inside: one HTML text, which works from disk and without a network."""
+"""The page with its scene: one HTML text, which works from disk and without a network."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class _Scripts(HTMLParser):
-    """Finds the scripts that are in a page; data in elements of the same name is none."""
+    """Collect the scripts of a page; a `<script>` with JSON data is not a script."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -38,11 +38,11 @@ class _Scripts(HTMLParser):
 
 
 def content_security_policy(page: str, *, has_server: bool) -> str:
-    """Return the policy with which a page may use what it contains, and its server if it has one, and nothing else.
+    """Return the policy that limits a page to what it contains, and to its server if it has one.
 
     Without it, a mesh could name a texture on any machine.
     """
-    # By their hashes: text of a robot that got into the page as a script would not run.
+    # Only scripts with these hashes run, so a script that got into the page from the text of a robot would not.
     parser = _Scripts()
     parser.feed(page)
     hashes = (b64encode(sha256(script.encode()).digest()).decode() for script in parser.texts)

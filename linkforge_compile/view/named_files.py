@@ -1,6 +1,6 @@
 """The files that meshes and materials name: those of OBJ, MTL, COLLADA and glTF; and why a mesh cannot be read.
 
-A name is given as it is written, which is how the loaders of the page ask for it, and as the path that it is.
+A name is given as it is written, as the loaders of the page request it, and as a path.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ _BUFFERS = frozenset(("bin",))
 _WITH_URIS = ("dae", "gltf", "glb")
 
 _MAX_JSON = 16 * 1024 * 1024
-"""The longest JSON of a glTF in which names are looked for, as its values take twenty times as much memory."""
+"""The longest JSON of a glTF that is searched for names; its values take twenty times as much memory."""
 
 KINDS: Mapping[str, str] = {"jpeg": "jpg"}
-"""Endings that have another name as a kind."""
+"""The kinds of files by their endings, where these differ."""
 
 
 class NamedFile(NamedTuple):
-    """A name as it is written, the path that it is, and the kinds that the file may be of."""
+    """A name as it is written, its path, and the kinds that the file may have."""
 
     name: str
     place: str
@@ -39,14 +39,14 @@ def named_files(kind: str, content: bytes) -> Iterator[NamedFile]:
     """Yield each file that a file of some kind names.
 
     Raises:
-        UnreadableError: It is no file of its kind. Not all that is wrong with one is found.
+        UnreadableError: It is not a file of its kind. Not every fault is found.
 
     """
     find = _FINDERS.get(kind)
     for name, kinds in dict(find(content)).items() if find else ():
         if name and "\0" not in name and not name.startswith(("data:", "http:", "https:")):
             place = name.removeprefix("file://")
-            # Names are URIs in glTF and COLLADA, and exporters on Windows write its separators.
+            # Names are URIs in glTF and COLLADA; exporters on Windows write them with backslashes.
             path = unquote(place) if kind in _WITH_URIS else place
             yield NamedFile(name, path.replace("\\", "/"), kinds)
 
@@ -88,9 +88,9 @@ def _xml_fault(error: SyntaxError, content: bytes) -> str:
 
 
 class _Images:
-    """Collects what the images of a COLLADA document name, and keeps nothing else of it.
+    """Collect the names of the files of the images in a COLLADA document; keep nothing else.
 
-    An `init_from` of a surface names an image, and not a file.
+    The `init_from` of a surface names an image, not a file.
     """
 
     def __init__(self) -> None:

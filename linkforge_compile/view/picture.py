@@ -1,4 +1,4 @@
-"""A picture of a page, drawn by a browser of this machine without a window and without its graphics card."""
+"""A picture of a page, drawn by a local browser without a window or a graphics card."""
 
 from __future__ import annotations
 
@@ -69,8 +69,8 @@ WAIT = f"""<script>
 }})();
 </script>
 """
-"""The end of a page of which a picture is drawn: a browser draws it once the page is loaded, which an open document
-inside of the page delays until the robot is drawn."""
+"""The end of a page that is drawn as a picture: the browser draws it when the page has loaded, and an open document
+inside the page delays that until the robot is drawn."""
 
 _NOT_SHOWN = re.compile(r':CONSOLE[:(\d)]*\] "linkforge: not shown: (\w+) (.*)", source: ')
 _MESSAGE = re.compile(r':CONSOLE[:(\d)]*\] "(.*)", source: ')
@@ -84,14 +84,14 @@ class Size(NamedTuple):
 
 
 class PictureError(Exception):
-    """There is no browser, or it draws no picture; the message has the reason and the way out."""
+    """No browser was found, or it did not draw the picture; the message has the reason and the way out."""
 
 
 def find_browser() -> Sequence[str]:
     """Return the command of a browser.
 
     Raises:
-        PictureError: There is none; it names those that were looked for.
+        PictureError: No browser was found; the message names those that were looked for.
 
     """
     if words := os.environ.get(VARIABLE):
@@ -109,13 +109,13 @@ def find_browser() -> Sequence[str]:
 
 
 def _words_in(text: str) -> list[str]:
-    """Return the words of a command; Windows separates folders by what quotes elsewhere."""
+    """Return the words of a command; on Windows a backslash separates folders and does not quote."""
     is_posix = os.name != "nt"
     return [word if is_posix else word.strip('"') for word in shlex.split(text, posix=is_posix)]
 
 
 def _usual_places() -> Iterator[str]:
-    """Yield where macOS and Windows have browsers, which are not on the PATH there."""
+    """Yield the usual places of browsers on macOS and Windows, where they are not on the PATH."""
     for applications in (Path("/Applications"), Path.home() / "Applications"):
         yield from (str(applications / place) for place in _MACOS)
     for programs in filter(None, map(os.environ.get, _WINDOWS_FOLDERS)):
@@ -150,20 +150,20 @@ def draw_picture(html: str, size: Size, browser: Sequence[str], time_limit: floa
 
 
 def _folder_for(browser: Sequence[str]) -> Path | None:
-    """Return the folder for temporary files; None for the usual one, of which a snap has a copy of its own."""
+    """Return the folder for temporary files; None for the usual one; a snap has its own /tmp."""
     program = Path(browser[0])
     folder = Path.home() / "snap" / program.name / "common"
     return folder if program.parts[:2] == ("/", "snap") and folder.is_dir() else None
 
 
 def _sandbox() -> Iterator[str]:
-    """The sandbox does not start for root, as whom containers run."""
+    """Yield the option to run without the sandbox for root, for whom it does not start; containers run as root."""
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         yield "--no-sandbox"
 
 
 def _run(command: Sequence[str], log: Path, time_limit: float) -> None:
-    """Run a browser and end it with all processes that it starts, which could outlive it."""
+    """Run a browser; then end it and all processes that it started, which could outlive it."""
     with log.open("wb") as stderr:
         try:
             process = subprocess.Popen(
@@ -190,7 +190,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _reason(log: str) -> str:
-    """Return why there is no picture, by what the browser printed."""
+    """Return why the browser drew no picture, from its output."""
     if "No usable sandbox" in log:
         return f"its sandbox does not start on this machine; {VARIABLE}='chromium --no-sandbox' leaves it out"
     messages = _MESSAGE.findall(log)

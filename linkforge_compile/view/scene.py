@@ -1,4 +1,4 @@
-"""A robot as plain values for JSON, which the page draws; `page/src/scene.ts` has the same types.
+"""The robot that the page draws, as plain values for JSON; `page/src/scene.ts` has the same types.
 
 All numbers are SI. A pose is in the frame of its parent, as in URDF, and a quaternion is [x, y, z, w].
 """
@@ -133,7 +133,7 @@ class SceneMissing(TypedDict):
 
 
 class SceneCamera(TypedDict):
-    """Where the robot is looked at from: angles [deg], azimuth from x to y; without `distance` all of it is seen."""
+    """The camera: its angles [deg], azimuth from x to y; without `distance` the whole robot is visible."""
 
     azimuth: float
     elevation: float
@@ -168,11 +168,11 @@ class SceneRemoved(TypedDict):
 
 
 class SceneComparison(TypedDict):
-    """The robot before, over which another one is shown.
+    """The old robot, over which the new one is shown.
 
-    `labels` are the names of both in headings. `kinds` has what happened to a link, by its name in the robot after,
-    or before for one that is gone. `links` and `joints` are new names by old ones. The files are with those of the
-    robot after.
+    `labels` are the names of both in headings. `kinds` has what happened to a link, by its name in the new robot, or
+    in the old one for a removed link. `links` and `joints` are new names by old ones. The files are with those of the
+    new robot.
     """
 
     before: Scene
@@ -185,7 +185,7 @@ class SceneComparison(TypedDict):
 
 
 class Scene(TypedDict):
-    """All that the page draws; a joint comes after the joint above it, `files` are by digest.
+    """Everything that the page draws; a joint comes after the joint above it, and `files` are by digest.
 
     `version` is that of a live viewer in which the scene was new.
     """
@@ -205,7 +205,7 @@ class Scene(TypedDict):
 def make_scene(robot: Robot, files: RobotFiles, view: SceneView | None = None, *, is_live: bool = False) -> Scene:
     """Return the scene of a robot with the files of its shapes, which are those of `collect_files`.
 
-    A joint to a link that another joint holds is omitted. Links of a circle, which no root holds, are roots.
+    A second joint to the same link is omitted. The links of a cycle, which no root leads to, are roots.
     """
     tree = KinematicTree.of(robot)
     held = {node.link.name for node in tree.nodes}

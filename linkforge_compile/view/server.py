@@ -26,16 +26,16 @@ from linkforge_compile.view.session import Session
 ADDRESS = "127.0.0.1"
 
 KEEP_ALIVE = 5.0
-"""Time between two signs of life to a page without news, which find out whether it is still there [s]."""
+"""Time between two messages to a page without news, which find out whether it is still open [s]."""
 
 FIRST = 60.0
-"""The longest time that a page waits for the first compile [s]; events bring what it has not."""
+"""The longest time that a page waits for the first compile [s]; it then gets the scene by an event."""
 
 MOST_BYTES = 64 * 1024
 """The longest body of a request."""
 
 _MOST_DRAINED = 1024 * 1024
-"""How much of a longer body is read, so that its sender gets to read the answer."""
+"""How much of a longer body is read, so that the sender can read the answer."""
 
 _IMAGES = {"png": "image/png", "jpg": "image/jpeg", "webp": "image/webp", "bmp": "image/bmp", "gif": "image/gif"}
 
@@ -52,7 +52,7 @@ class Choice(NamedTuple):
 
 
 class RefusedError(Exception):
-    """A request is not what it should be; the message says why."""
+    """A request is refused; the message says why."""
 
     def __init__(self, reason: str, status: HTTPStatus = HTTPStatus.BAD_REQUEST) -> None:
         super().__init__(reason)
@@ -85,7 +85,7 @@ class ViewServer(ThreadingHTTPServer):
 
     daemon_threads = True
     request_queue_size = 64
-    # On Windows it lets a second program take the port.
+    # On Windows, this would let a second program take the port.
     allow_reuse_address = os.name != "nt"
 
     def __init__(self, session: Session, render: Callable[[Scene], str], port: int = 0) -> None:
@@ -108,7 +108,7 @@ class ViewServer(ThreadingHTTPServer):
         self.server_close()
 
     def handle_error(self, request: object, client_address: object) -> None:
-        """Report a bug of ours; pages that are gone, or do not read, are none."""
+        """Report a bug; a page that closed the connection, or does not read, is not one."""
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)  # type: ignore[arg-type]  # it prints the address
 
@@ -165,10 +165,10 @@ class _Handler(BaseHTTPRequestHandler):
         return self.rfile.read(int(length))
 
     def _words(self) -> list[str] | None:
-        """Return the path below the token; None after an answer to a request that is refused."""
+        """Return the path below the token; None if the request was refused, and answered."""
         host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
         if not _HOST.fullmatch(host) or origin not in (None, f"http://{host}"):
-            # A page of another site, or one whose name leads to this machine.
+            # It comes from another site, also from one whose name leads to this machine.
             self._refuse(HTTPStatus.FORBIDDEN, "the viewer answers its own page only")
             return None
         empty, *words = urlsplit(self.path).path.split("/")
@@ -182,7 +182,7 @@ class _Handler(BaseHTTPRequestHandler):
         self._send(page.encode(), "text/html; charset=utf-8", content_security_policy(page, has_server=True))
 
     def _send_events(self) -> None:
-        """Send an event for each new state, the present one first, until the page or the session ends."""
+        """Send an event for the current state and for each new one, until the page or the session ends."""
         session, known = self.server.session, self._known_version()
         self.send_response(HTTPStatus.OK)
         self.send_header("Content-Type", "text/event-stream")
@@ -198,7 +198,7 @@ class _Handler(BaseHTTPRequestHandler):
             last = known = state.version
 
     def _known_version(self) -> int:
-        """Return the version that the page has: of its last event, or of the scene that it came with; 0 for none."""
+        """Return the version that the page has, from its last event or its first scene; 0 for none."""
         asked = parse_qs(urlsplit(self.path).query).get("version", [""])[-1]
         known = self.headers.get("Last-Event-ID") or asked
         return int(known) if known.isascii() and known.isdecimal() and len(known) < 16 else 0

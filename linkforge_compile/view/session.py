@@ -1,4 +1,4 @@
-"""What a live viewer holds, without a network: settings, the last good scene, problems of the spec, and versions."""
+"""The state of a live viewer, without a network: settings, the last good scene, problems of the spec, and versions."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from linkforge_compile.view.scene import Scene, SceneView, make_scene
 from linkforge_compile.view.updates import Update, problems_of, shown_settings, values_of
 
 PAGE = "<viewer page>"
-"""The place of a value that was set in the page, in diagnostics."""
+"""The place, in diagnostics, of a value that was set in the page."""
 
 ViewOf: TypeAlias = "Callable[[Robot], SceneView] | None"
-"""Returns how a robot is shown first; None for without any options."""
+"""Returns how a robot is shown at first; None without options."""
 
 
 class Unchanged(Enum):
-    """Stands for a variant that a page leaves as it is, as None is no variant."""
+    """The value for a variant that a page does not change; None selects no variant."""
 
     UNCHANGED = "unchanged"
 
@@ -54,7 +54,7 @@ NO_SCENE: Scene = {
 """What a page shows until the spec has been compiled without errors."""
 
 Changes: TypeAlias = tuple[Path | str, ...]
-"""Files, and what else has changed, by its name."""
+"""The files that changed, and the names of other things that did."""
 
 
 class State(NamedTuple):
@@ -77,7 +77,7 @@ class State(NamedTuple):
     watched: tuple[Path, ...] = ()
 
     def update_since(self, version: int) -> Update:
-        """Return what a page needs that has the scene of a version; 0 for none."""
+        """Return what a page needs if it has the scene of a version; 0 for no scene."""
         return {
             "version": self.version,
             "scene": self.scene if version < self.scene_version else None,
@@ -86,7 +86,7 @@ class State(NamedTuple):
         }
 
     def content_of(self, digest: str) -> tuple[str, bytes] | None:
-        """Return the kind and the bytes of a file of the scene or of the one before; None for no such file."""
+        """Return the kind and the bytes of a file of this scene or the previous one; None for any other file."""
         file = self.files.files.get(digest) or self.former_files.files.get(digest)
         return (file.kind, file.content) if file else None
 
@@ -94,9 +94,9 @@ class State(NamedTuple):
 def compile_state(
     spec: Path, settings: Settings, last: State, selection: Selection = ALL, view_of: ViewOf = None
 ) -> State:
-    """Compile a spec and return what is shown next; what is new in a spec with errors is its problems.
+    """Compile a spec and return the next state; of a spec with errors, only the problems are new.
 
-    What the page sets of parameters that the spec no longer declares has no effect.
+    Values that the page set for parameters that the spec no longer declares have no effect.
     """
     listing, _ = parameters_of(spec, packages=settings.packages, allow_outside=settings.allow_outside)
     listing = listing or last.listing
@@ -111,7 +111,7 @@ def compile_state(
         watched=tuple(dict.fromkeys((spec, *compilation.files, *compilation.unread))),
     )
     if compilation.robot is None:
-        # The files of the last scene may be what was changed to correct it.
+        # The change that corrects it may be in the files of the last scene.
         return state._replace(watched=tuple(dict.fromkeys((*state.watched, *last.watched))))
     return _with_scene(state, compilation.robot, view_of(compilation.robot) if view_of else None)
 
@@ -151,7 +151,7 @@ class Session:
         return self._is_closed
 
     def renew(self) -> State:
-        """Compile with the latest settings, and give the result to those who wait."""
+        """Compile with the latest settings, and give the result to all threads that wait."""
         began = time.time_ns()
         with self._news:
             settings = self._settings
@@ -188,20 +188,20 @@ class Session:
             self._news.wait_for(lambda: self._chosen, seconds)
 
     def wait(self, version: int, seconds: float) -> State:
-        """Return the state once it is newer than a version; after the time, or once it is closed, as it is."""
+        """Return the state once it is newer than a version; the current one after the time or once it is closed."""
         with self._news:
             self._news.wait_for(lambda: self._is_closed or self._state.version > version, seconds)
             return self._state
 
     def close(self) -> None:
-        """Release all who wait."""
+        """Release all threads that wait."""
         with self._news:
             self._is_closed = True
             self._news.notify_all()
 
 
 def _with_declared_only(settings: Settings, listing: Listing | None) -> Settings:
-    """Leave out what the page set of parameters that are not declared; those of the command line are reported."""
+    """Remove values from the page for undeclared parameters; those of the command line are reported."""
     if listing is None or not isinstance(settings.parameters, Mapping):
         return settings
     declared = {one.name for one in listing.parameters}

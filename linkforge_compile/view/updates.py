@@ -40,7 +40,7 @@ class ParameterSetting(TypedDict):
     """A parameter as its widget shows it; numbers are in `unit`, an SI unit.
 
     `value` is what the user set, as text; None for the default, which the chosen variant may replace. `number` is what
-    the slider shows of them; None if they are no number.
+    the slider shows of them; None if they are not a number.
     """
 
     name: str
@@ -56,7 +56,7 @@ class ParameterSetting(TypedDict):
 
 
 class ShownSettings(TypedDict):
-    """What the user may set, with what is set."""
+    """The settings of the page, with their current values."""
 
     parameters: list[ParameterSetting]
     variants: list[str]
@@ -64,7 +64,7 @@ class ShownSettings(TypedDict):
 
 
 class Update(TypedDict):
-    """What a page receives; `scene` is None if it shows that already, or there is none yet."""
+    """An update for a page; `scene` is None if the page shows it already, or there is none yet."""
 
     version: int
     scene: Scene | None
@@ -73,7 +73,7 @@ class Update(TypedDict):
 
 
 def values_of(parameters: Parameters | None) -> dict[str, str]:
-    """Return what parameters are set to, as text by name."""
+    """Return the values of parameters as text, by name."""
     if isinstance(parameters, Mapping):
         return {name: value.text for name, value in parameters.items() if isinstance(value, CliArgument)}
     entries = arguments_from_text(tuple(parameters or ()), Diagnostics()).entries
@@ -81,7 +81,7 @@ def values_of(parameters: Parameters | None) -> dict[str, str]:
 
 
 def shown_settings(settings: Settings, listing: Listing | None) -> ShownSettings:
-    """Return the settings of a compile with what the file declares; None if that could not be read yet."""
+    """Return the settings of a compile with the declarations of the file; None if it could not be read yet."""
     if listing is None:
         return {"parameters": [], "variants": [], "variant": settings.variant}
     values, by_variant = values_of(settings.parameters), dict[str, str]()
@@ -127,7 +127,7 @@ def _as_choice(text: str | None, unit: str | None) -> str | None:
 
 
 def problems_of(diagnostics: Iterable[Diagnostic], missing: Iterable[MissingFile] = ()) -> list[Problem]:
-    """Return the diagnostics that a report in text shows, errors first; of missing files with the links."""
+    """Return the diagnostics that a text report shows, errors first; those about missing files have the links."""
     diagnostics = tuple(diagnostics)
     links = {one.use.place: one.use.links for one in missing}
     shown = [one for one in count_losses(diagnostics, [diagnostics]) if not one.is_only_counted]
