@@ -63,7 +63,7 @@ def computed(tree: ast.expr, names: Names, extensions: list[Parts]) -> ast.expr 
         except NotConstantError as error:
             unknown.update(error.symbols)
             raise UnknownValueError from None
-        return read_literal(value) if marked and isinstance(value, str) else value
+        return _evaluated(value) if marked and isinstance(value, str) else value
 
     tree = _with_texts(tree, lookup)
     try:
@@ -73,6 +73,14 @@ def computed(tree: ast.expr, names: Names, extensions: list[Parts]) -> ast.expr 
             raise NotConstantError(frozenset(unknown)) from None
         return None
     return constant(value)
+
+
+def _evaluated(text: str) -> object:
+    """Return what a text is as a part of an expression, such as a list that an argument gives."""
+    try:
+        return ast.literal_eval(text)
+    except (ValueError, SyntaxError, RecursionError, MemoryError):
+        return read_literal(text)
 
 
 def _with_texts(tree: ast.expr, lookup: Callable[[str], object]) -> ast.expr:

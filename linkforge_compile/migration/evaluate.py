@@ -40,6 +40,7 @@ from linkforge_compile.migration.symbols import (
     read_literal,
     refer,
     same_text,
+    symbols_of,
     value_of,
 )
 from linkforge_compile.migration.template import Content, FileDraft
@@ -228,8 +229,13 @@ class Evaluator(ABC):
         wish = _name_of_data(address)
         symbol = Symbol(wish, "data", address, known, MAP)
         if known is UNSET:
+            is_readable = True
             with suppress(NotConstantError, CannotTranslateError):
-                symbol.example = self.sources.data(context.folder / self.path_text(self._as_given(parts, context)))
+                path = context.folder / self.path_text(self._as_given(parts, context))
+                symbol.example = self.sources.data(path)
+                is_readable = self.sources.is_readable(path)
+            if not is_readable:
+                raise NotConstantError(symbols_of(parts), "a spec cannot read this file directly")
         context.file.symbols.append(symbol)
         return refer(symbol)
 

@@ -148,6 +148,8 @@ class _Translator:
         if marked := MARK.fullmatch(name):
             node = as_expression(self._extensions[int(marked[1])])
             text = literal_of(node)
+            if isinstance(node, Reference) and str((*(node.symbol.value or ()), "")[0]).startswith(("[", "{", "(")):
+                raise self.refuse("an argument that is an expression of Python")
             return self.visit(ast.parse(f"({text})", mode="eval").body) if isinstance(text, str) else node
         found = self._names.lookup(name)
         if found is not None:

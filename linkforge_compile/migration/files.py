@@ -86,8 +86,7 @@ class FileMaker:
         uses = Uses(self._draft, self._placeholders, self._writer, self._modules, self._folder)
         content = [*used_materials(uses.content, self._materials), *uses.content]
         groups = Groups(content, self._writer)
-        attributes = dict(self._draft.robot_attributes)
-        robot = {"name": ("robot",), **{name: value for name, value in attributes.items() if name == "version"}}
+        robot = {**self._draft.robot_attributes, "name": ("robot",)}
         outside = uses.names() | groups.others
         read = [self._read(groups.document(number, robot), outside) for number in range(groups.count)]
         merger = Merger(self._placeholders)
@@ -226,7 +225,9 @@ class FileMaker:
             "packages": map_of(used, where) if used else None,
         }
         body = {key: filled.get(key) for key in _ORDER}
-        return map_of({**head, **declared, **body}, where)
+        attributes = first.get("extra_attributes")
+        rest = self._values.fill(attributes) if attributes else None
+        return map_of({**head, **declared, **body, "extra_attributes": rest}, where)
 
     def _with_loops(self, parts: YamlMap, section: str) -> YamlMap:
         """Return a section in which joints or transmissions that are alike are one entry."""

@@ -100,6 +100,8 @@ def as_condition(node: ast.expr, text: str = "") -> ast.expr:
         return constant(bool(literal))
     if literal is not UNSET:
         return constant(bool(literal))
+    if isinstance(node, Reference) and node.symbol.constant is None:
+        return constant(False)
     kind = kind_of(node)
     if kind == UNKNOWN and isinstance(node, Reference) and node.symbol.role == "parameter":
         node.symbol.kind = kind = BOOLEAN

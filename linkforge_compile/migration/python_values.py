@@ -26,6 +26,8 @@ _OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
     ast.LtE: operator.le,
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
+    ast.Is: operator.is_,
+    ast.IsNot: operator.is_not,
     ast.In: lambda item, items: item in items,
     ast.NotIn: lambda item, items: item not in items,
 }
@@ -67,7 +69,9 @@ def _range(*bounds: int) -> list[int]:
 _CALLED: Mapping[str, Callable[..., Any]] = {
     **_FUNCTIONS,
     "range": _range,
-    **{one.__name__: one for one in (list, dict, tuple, sorted, sum, any, all, bool, zip, enumerate, reversed, set)},
+    **{one.__name__: one for one in (list, dict, tuple, sorted, sum, any, all, bool, set)},
+    **{one.__name__: lambda *items, one=one: list(one(*items)) for one in (zip, enumerate, reversed)},
+    "dotify": dict,
 }
 _NAMESPACES = ("math", "python", "xacro")
 
@@ -177,12 +181,16 @@ class PythonValues:
     def _rounds(self, generators: list[ast.comprehension], local: Mapping[str, Any]) -> list[Mapping[str, Any]]:
         rounds: list[Mapping[str, Any]] = [local]
         for generator in generators:
-            if not isinstance(generator.target, ast.Name):
+            target = generator.target
+            parts = target.elts if isinstance(target, ast.Tuple) else [target]
+            names = [one.id for one in parts if isinstance(one, ast.Name)]
+            if len(names) < len(parts):
                 raise UnknownValueError
-            name = generator.target.id
             made: list[Mapping[str, Any]] = []
             for one in rounds:
-                made += ({**one, name: item} for item in self._value(generator.iter, one))
+                items = self._value(generator.iter, one)
+                rows = items if isinstance(target, ast.Tuple) else ((item,) for item in items)
+                made += ({**one, **dict(zip(names, row, strict=True))} for row in rows)
                 if len(made) > _MOST_ITEMS:
                     raise UnknownValueError
             rounds = [one for one in made if all(self._value(test, one) for test in generator.ifs)]
@@ -219,7 +227,7 @@ def _calculate(operation: ast.operator, left: Any, right: Any) -> Any:
     numbers = [one for one in (left, right) if isinstance(one, int)]
     checks: dict[type[ast.operator], Callable[[], bool]] = {
         ast.Pow: lambda: not (abs(left) < _MOST_BASE and abs(right) < 100),
-        ast.Mult: lambda: bool(sequences),
+        ast.Mult: lambda: bool(sequences) and len(sequences[0]) * max(numbers, default=0) > _MOST_ITEMS,
         ast.Add: lambda: sum(map(len, sequences)) > _MOST_CHARACTERS,
         ast.Mod: lambda: isinstance(left, str) and _WIDTH.search(left) is not None,
     }

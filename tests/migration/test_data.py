@@ -222,3 +222,15 @@ def test_an_argument_that_names_a_file_beside_the_xacro_is_a_file_with_its_place
     made = migrated(tmp_path, text)
     assert "config: {type: file, default: ../arm.yaml}" in made.robot
     assert "known: {type: map}" in made.files["ball.robot.yaml"]
+
+
+def test_a_file_that_a_spec_cannot_read_keeps_the_argument_that_names_it(tmp_path: Path):
+    (tmp_path / "arm.yaml").write_text("reach: 1\nreach: 0.5\n", "utf-8")
+    text = """
+<xacro:arg name="folder" default="."/>
+<xacro:arg name="config" default="$(arg folder)/arm.yaml"/>
+<xacro:property name="known" value="${xacro.load_yaml('$(arg config)')}"/>
+<link name="base"><visual><geometry><sphere radius="${known['reach']}"/></geometry></visual></link>"""
+    made = migrated(tmp_path, text)
+    assert [one.code.id for one in made.proved.diagnostics] == ["LF8042", "LF8042"]
+    assert "reach: 0.5" in made.robot

@@ -322,3 +322,12 @@ def test_a_parameter_of_some_of_three_drivers_has_a_condition(tmp_path: Path):
     assert "enum: [a, b, c]" in made.robot
     assert "value: $(ip if driver == 'a' else '0.0.0.0')" in made.robot
     assert "extra" not in made.robot
+
+
+def test_namespaces_that_the_root_declares_are_kept(tmp_path: Path):
+    main = write(tmp_path, robot='<link name="base"/>')
+    declared = main.read_text("utf-8").replace("<robot ", '<robot xmlns:sensor="http://example.org/sensor" ')
+    main.write_text(declared, "utf-8")
+    proved = Migrator(main, {}, tmp_path / "specs", Settings((), {}).loader(main), Diagnostics()).run()
+    assert proved.is_equal
+    assert "xmlns:sensor: http://example.org/sensor" in proved.files[proved.main]
