@@ -10,7 +10,8 @@ from linkforge_compile.collisions.scene import Names, is_own
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.core.models.srdf_collisions import CollisionPair
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.source import Position, SourceFile
+from linkforge_compile.diagnostics.fix import Edit, apply_edits
+from linkforge_compile.source import SourceFile
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, has_expression, is_null, leaves_in, read
 from linkforge_compile.syntax.writer import write
 
@@ -52,14 +53,6 @@ _COMMENT = re.compile(r"(?:^|(?<=\s))#[^\r\n]*")
 
 class CannotRewriteError(Exception):
     """The pairs are written in a form that only a person can change; the message is the reason."""
-
-
-class _Edit(NamedTuple):
-    """The text between two indexes, and what replaces it."""
-
-    begin: int
-    end: int
-    text: str
 
 
 class _Written(NamedTuple):
@@ -114,19 +107,19 @@ def rewrite(file: SourceFile, robot: Robot, wanted: Mapping[Names, str | None]) 
     root = read(file, Diagnostics())
     entry = root.entries.get("semantic") if root else None
     if entry is None:
-        return text.with_edits([text.append(["semantic:", *_section(wanted, _INDENT)])])
+        return apply_edits(file, [text.append(["semantic:", *_section(wanted, _INDENT)])])
     if is_null(entry.value):
-        return text.with_edits([text.clear(entry), text.insert_below(entry, _section(wanted, _INDENT))])
+        return apply_edits(file, [text.clear(entry), text.insert_below(entry, _section(wanted, _INDENT))])
     semantic = text.require_block(entry, "semantic")
     section = semantic.entries.get(SECTION)
     if section is None:
         last = list(semantic)[-1]
-        return text.with_edits([text.insert_below(last, _section(wanted, text.indent(last)))])
+        return apply_edits(file, [text.insert_below(last, _section(wanted, text.indent(last)))])
     if is_null(section.value):
         lines = _section(wanted, text.indent(section))[1:]
-        return text.with_edits([text.clear(section), text.insert_below(section, lines)])
+        return apply_edits(file, [text.clear(section), text.insert_below(section, lines)])
     written = _written(text, section, declared)
-    return text.with_edits(_edits(text, written, wanted, section))
+    return apply_edits(file, _edits(text, written, wanted, section))
 
 
 def _section(wanted: Mapping[Names, str | None], indent: str) -> list[str]:
@@ -143,7 +136,7 @@ def _written(text: _Text, section: YamlEntry, declared: Iterable[CollisionPair])
         begin, end = text.begin(entry), text.end(entry)
         if begin < text.begin(section):
             raise CannotRewriteError(f"'{SECTION}' inserts what an anchor names")
-        inside = [pair for pair in pairs if pair.source and begin <= text.at(pair.source.span.start) < end]
+        inside = [pair for pair in pairs if pair.source and begin <= pair.source.span.range[0] < end]
         written.append(_Written(entry, inside))
     if len(pairs) != sum(len(one.pairs) for one in written):
         raise CannotRewriteError(f"some pairs are not written under '{SECTION}' itself")
@@ -152,7 +145,7 @@ def _written(text: _Text, section: YamlEntry, declared: Iterable[CollisionPair])
 
 def _edits(
     text: _Text, written: Sequence[_Written], wanted: Mapping[Names, str | None], section: YamlEntry
-) -> Iterator[_Edit]:
+) -> Iterator[Edit]:
     """Yield the edits of entries that change, and one for the new entries after the last one."""
     left = dict(wanted)
     kept = [_kept(one, left) for one in written]
@@ -200,77 +193,73 @@ class _Text:
 
     def __init__(self, file: SourceFile) -> None:
         self._file, self._text = file, file.counted
-        self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\r|\n", self._text))]
-        self._line_end = "\r\n" if "\r\n" in self._text else "\n"
-
-    def at(self, position: Position) -> int:
-        return self._starts[position.line - 1] + position.column - 1
 
     def begin(self, entry: YamlEntry) -> int:
-        return self.at(entry.key.span.start)
+        return entry.key.span.range[0]
 
     def end(self, entry: YamlEntry) -> int:
         """Return the index after the last character of an entry that is no space or comment."""
-        return max(self.at(entry.key.span.end) + 1, self._end(entry.value))
+        return max(entry.key.span.range[1] + 1, self._end(entry.value))
 
     def _end(self, node: YamlNode) -> int:
         if self._is_block(node):
             assert isinstance(node, YamlMap)
             return max(self.end(entry) for entry in node)
-        return self.at(node.span.end)
+        return node.span.range[1]
 
     def _is_block(self, node: YamlNode) -> bool:
-        return isinstance(node, YamlMap) and len(node) > 0 and self._text[self.at(node.span.start)] != "{"
+        return isinstance(node, YamlMap) and len(node) > 0 and not node.span.is_flow
 
     def require_block(self, entry: YamlEntry, name: str) -> YamlMap:
         """Return the map of an entry that is written below its key, line by line."""
         node = entry.value
-        if not isinstance(node, YamlMap) or not self._is_block(node) or self.at(node.span.start) < self.begin(entry):
+        if not isinstance(node, YamlMap) or not self._is_block(node) or node.span.start < entry.key.span.start:
             raise CannotRewriteError(f"'{name}' is not written below its key, line by line")
         return node
 
     def indent(self, entry: YamlEntry) -> str:
         return " " * (entry.key.span.column - 1)
 
-    def insert_below(self, entry: YamlEntry, lines: Sequence[str]) -> _Edit:
+    def insert_below(self, entry: YamlEntry, lines: Sequence[str]) -> Edit:
         """Return the edit that adds lines below the last line of an entry."""
-        end = re.compile(r"[^\r\n]*").match(self._text, self.end(entry))
-        index = end.end() if end else len(self._text)
-        return _Edit(index, index, "".join(f"{self._line_end}{line}" for line in lines))
+        end = self._line_end(entry)
+        return self._edit(end, end, "".join(f"{self._file.newline}{line}" for line in lines))
 
-    def clear(self, entry: YamlEntry) -> _Edit:
+    def clear(self, entry: YamlEntry) -> Edit:
         """Return the edit that removes a written `null`."""
-        return _Edit(self.at(entry.key.span.end) + 1, self.end(entry), "")
+        return self._edit(entry.key.span.range[1] + 1, self.end(entry), "")
 
-    def append(self, lines: Sequence[str]) -> _Edit:
+    def append(self, lines: Sequence[str]) -> Edit:
         """Return the edit that adds lines at the end of the file, after an empty one."""
         end = len(self._text)
-        text = "".join(f"{line}{self._line_end}" for line in ("", *lines))
-        return _Edit(end, end, text if self._text.endswith(("\n", "\r")) else self._line_end + text)
+        text = "".join(f"{line}{self._file.newline}" for line in ("", *lines))
+        return self._edit(end, end, text if self._text.endswith(("\n", "\r")) else self._file.newline + text)
 
-    def replace(self, entry: YamlEntry, lines: Sequence[str]) -> _Edit:
+    def replace(self, entry: YamlEntry, lines: Sequence[str]) -> Edit:
         """Return the edit that replaces an entry, with the comments inside it above its new lines."""
         begin, end = self.begin(entry), self.end(entry)
         texts = [*self._comments(entry, begin, end), *lines]
         if texts:
-            separator = self._line_end + self.indent(entry)
-            return _Edit(begin, end, separator.join(texts))
-        rest = re.compile(r"[ \t]*(\r\n|\r|\n)?").match(self._text, end)
-        assert rest
-        # With the whole line, unless a comment follows.
-        return _Edit(self._starts[entry.key.span.line - 1] if rest[1] else begin, rest.end(), "")
+            separator = self._file.newline + self.indent(entry)
+            return self._edit(begin, end, separator.join(texts))
+        line_end, above = self._line_end(entry), entry.key.span.line - 1
+        if comment := self._text[end:line_end].lstrip():
+            return self._edit(begin, line_end - len(comment), "")
+        return self._edit(self._file.index_of(above, len(self._file.line(above)) + 1), line_end, "")
+
+    def _line_end(self, entry: YamlEntry) -> int:
+        """Return the index of the end of the last line of an entry."""
+        found = re.compile(r"[^\r\n]*").match(self._text, self.end(entry))
+        return found.end() if found else len(self._text)
 
     def _comments(self, entry: YamlEntry, begin: int, end: int) -> list[str]:
         """Return the comments inside an entry."""
         text = self._text[begin:end]
         for leaf in (entry.key, *leaves_in(entry.value)):
-            first, last = self.at(leaf.span.start) - begin, self.at(leaf.span.end) - begin
+            first, last = (index - begin for index in leaf.span.range)
             if 0 <= first < last <= len(text):
                 text = text[:first] + "_" * (last - first) + text[last:]
         return _COMMENT.findall(text)
 
-    def with_edits(self, edits: Iterable[_Edit]) -> str:
-        text = self._text
-        for edit in sorted(edits, reverse=True):
-            text = text[: edit.begin] + edit.text + text[edit.end :]
-        return self._file.text[: len(self._file.text) - len(self._text)] + text
+    def _edit(self, begin: int, end: int, text: str) -> Edit:
+        return Edit(self._file.between(begin, end), text)

@@ -68,6 +68,10 @@ def test_semantic_gets_the_section_below_its_last_line(newline: str, mark: str, 
     assert write(start + end, tmp_path, newline=newline) == f"{start}  disabled_collisions:\n{WANTED}{end}"
 
 
+def test_new_entries_take_the_place_of_the_last_one(tmp_path: Path):
+    assert write(semantic("    tool0: {left: Never}\n"), tmp_path) == semantic(WANTED)
+
+
 @pytest.mark.parametrize(
     "written", ["semantic:", "semantic: null  # later", "semantic:\n  disabled_collisions:  # all"]
 )
