@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics import Diagnostic, Note
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     ELEMENT_LEFT_OUT,
@@ -179,7 +179,8 @@ def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Dia
     for reason, combinations in refused.items():
         yield MIGRATION_UNPROVED.at(None, arguments=_all_words(combinations), reason=reason)
     for text, combinations in differences.items():
-        yield MIGRATION_DIFFERS.at(None, arguments=_all_words(combinations), text=text)
+        notes = [Note("this is a change from the robot of xacro to that of the specs")] if " → " in text else []
+        yield MIGRATION_DIFFERS.at(None, arguments=_all_words(combinations), text=text, notes=notes)
 
 
 def _all_words(combinations: Sequence[Arguments]) -> str:

@@ -44,6 +44,8 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     ran = linkforge(*verify, cwd=tmp_path)
     assert ran.returncode == 1
     assert "with all defaults and 1 other combination, the specs give a different robot: " in ran.stderr  # LF8040
+    assert "note: this is a change from the robot of xacro to that of the specs\n" in ran.stderr
+    assert ran.stderr.endswith("the specs are not equal to the xacro: correct them, or migrate again with --force\n")
 
 
 @pytest.mark.parametrize("content", [b"mine\n", "café\n".encode("latin-1")])
@@ -235,7 +237,7 @@ def test_a_draft_is_written_although_it_is_another_robot(tmp_path: Path, monkeyp
     write(tmp_path, robot='<link name="base"/>')
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path)
     assert ran.returncode == 1
-    assert ran.stderr.endswith("nothing is written; --draft writes the specs as they are, to mend them by hand\n")
+    assert ran.stderr.endswith("nothing is written; --draft writes the specs as they are, to correct them by hand\n")
     assert not (tmp_path / "specs").exists()
     ran = linkforge("migrate", "robot.xacro", "-o", "specs", "--draft", cwd=tmp_path)
     assert ran.returncode == 1

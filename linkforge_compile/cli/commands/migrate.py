@@ -95,8 +95,10 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.verify and (proved.is_equal or (arguments.draft and proved.files)):
         _write(proved, folder, arguments)
     elif not arguments.verify:
-        way_out = "; --draft writes the specs as they are, to mend them by hand" if proved.files else ""
+        way_out = "; --draft writes the specs as they are, to correct them by hand" if proved.files else ""
         print_status(f"nothing is written{way_out}", arguments)
+    elif proved.comparisons and not proved.is_equal:
+        print_status("the specs are not equal to the xacro: correct them, or migrate again with --force", arguments)
     return OK if proved.is_equal else FAULTY_SPEC
 
 
