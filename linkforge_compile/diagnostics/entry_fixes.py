@@ -61,7 +61,7 @@ def as_items(entries: Sequence[tuple[Span, Span]], title: str) -> Fix | None:
         whole = file.between(begin - 1, closing.end())
         items = ", ".join(f"{{{one.full_text}}}" for one in written)
         return Fix(title, (Edit(whole, f"[{items}]"),))
-    if any(file.line(place.line)[: place.column - 1].strip() for place in written):
+    if not all(place.begins_line for place in written):
         return None
     edits = [Edit(Span(file, *place.start, *place.start), "- ") for place in written]
     return Fix(title, (*edits, *(edit for place in written for edit in shift_lines_below(place, len("- ")))))

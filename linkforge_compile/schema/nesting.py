@@ -95,7 +95,7 @@ def line_above(key: str, entry: YamlEntry, around: YamlEntry) -> Fix | None:
     """Return the fix that writes the line of a section above an entry that is in another section."""
     place, section = _place([entry]), around.key.span
     # The line of the section around may be lost as well; it then has the place of its first entry.
-    if place is None or not _begins_line(section) or not _begins_line(place) or place.column <= section.column:
+    if place is None or not section.begins_line or not place.begins_line or place.column <= section.column:
         return None
     start = Span(place.file, place.line, 1, place.line, 1)
     return Fix(f"write '{key}:' above", (Edit(start, f"{' ' * (section.column - 1)}{key}:{place.file.newline}"),))
@@ -113,7 +113,3 @@ def _place(entries: Sequence[YamlEntry]) -> Span | None:
     if at.column == 1:
         at = at._replace(line=at.line - 1, column=len(file.line(at.line - 1)) + 1)
     return Span(file, *entries[0].key.span.start, *at)
-
-
-def _begins_line(place: Span) -> bool:
-    return not place.file.line(place.line)[: place.column - 1].strip(" ")

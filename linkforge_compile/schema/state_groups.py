@@ -99,6 +99,8 @@ def _are_written(section: YamlEntry, states: Sequence[_State]) -> bool:
         inner = (each.span for entry in (state.group, state.joints) for each in entry[:2])
         if not at <= key.start < key.end <= whole.start or not all(span.lies_in(whole) for span in inner):
             return False
+        if key.text is None or state.group.value.span.text is None:
+            return False
         at = whole.end
     return not file.is_xml and file is whole.file
 
@@ -122,7 +124,7 @@ def _on_lines(states: Sequence[_State]) -> Edit | None:
         begin, end = end + 1, _last_line(state)
         place = Span(file, begin, 1, end, len(file.line(end)) + 1)
         edits = _edits(state)
-        if not edits or file.line(state.own.key.span.line)[: first.column - 1].strip():
+        if not edits or not state.own.key.span.begins_line:
             return None
         text = textwrap.indent(edited(place, edits), _STEP)
         if state.group_name not in texts:
@@ -143,18 +145,21 @@ def _last_line(state: _State) -> int:
 
 
 def _edits(state: _State) -> Sequence[Edit]:
-    """Return the edits that write the joints of a state as its value; () where they would lose a comment."""
+    """Return the edits that write the joints of a state as its value; () where a comment or an anchor is in the way."""
     whole, key, joints = state.own.value.span, state.joints.key.span, state.joints.value.span
+    group = Span(key.file, *state.group.key.span.start, *state.group.value.span.end)
     if whole.is_flow:
         return [Edit(whole, joints.full_text)] if whole.full_text.count("#") == joints.full_text.count("#") else ()
-    if not joints.is_flow and joints.line == key.line:
+    is_block = whole.line > state.own.key.span.line and (joints.is_flow or joints.line > key.line)
+    is_apart = group.end_line < key.line or joints.end_line < group.line
+    last = whole.file.line(whole.end_line)[: whole.end_column - 1]  # empty if a name of a joint is a map
+    if not (is_block and is_apart and last.strip() and group.text and group.begins_line and key.begins_line):
         return ()
     between = Span(key.file, *state.own.key.span.end, *joints.start)
-    group = _removal(Span(key.file, *state.group.key.span.start, *state.group.value.span.end))
     if joints.is_flow and "#" not in between.full_text:
-        return [Edit(between, ": "), *([group] if group.span.start > joints.end else [])]
+        return [Edit(between, ": "), *([_removal(group)] if group.start > joints.end else [])]
     colon = key.file.line(key.line).index(":", key.end_column - 1) + 1
-    edits = [group, _removal(key._replace(end_column=colon + 1))]
+    edits = [_removal(group), _removal(key._replace(end_column=colon + 1))]
     if joints.line > key.line:
         lines = joints._replace(end_line=_last_line(state)) if joints.end == whole.end else joints
         edits += shift_lines(lines, key.column - joints.column)

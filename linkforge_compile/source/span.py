@@ -161,6 +161,11 @@ class Span(NamedTuple):
         """Whether it begins with a brace or bracket, as a map or list in flow style does."""
         return self.file.line(self.line).startswith(("{", "["), self.column - 1)
 
+    @property
+    def begins_line(self) -> bool:
+        """Whether only spaces are before it on its line."""
+        return not self.file.line(self.line)[: self.column - 1].strip(" ")
+
     def lies_in(self, other: Span) -> bool:
         """Whether all of it is inside another span."""
         return self.file is other.file and other.start <= self.start and self.end <= other.end

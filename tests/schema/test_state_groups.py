@@ -77,9 +77,14 @@ def test_states_are_written_under_their_groups(tmp_path: Path, text: str, makes:
         "{home: {group: arm,   # its group\n      joints: {x: 0}}}",
         "\n    home: {group: arm,   # its group\n      joints: {x: 0}}",
         "\n    home: {group: arm, joints: &x {x: 0}}\n    up: {group: arm, joints: *x}",
+        "\n    home: &x {group: arm, joints: {x: 0}}",
+        "\n    home:\n      group:   # its group\n        arm\n      joints: {x: 0}",
+        "\n    home:\n      ? group\n      : arm\n      ? joints\n      :\n        x: 0",
+        "\n    home:\n      group: arm\n      joints:\n        ? x: 0\n    up:\n      group: arm\n      joints: {x: 0}",
+        "\n    ? home\n    : group: arm\n      joints:\n        x: 0",
     ],
 )
-def test_states_with_a_comment_that_would_be_lost_stay(tmp_path: Path, states: str):
+def test_states_with_something_that_would_be_lost_stay(tmp_path: Path, states: str):
     assert fixed(tmp_path, f"semantic:\n  group_states: {states}\n", "LF2201") == []
 
 
