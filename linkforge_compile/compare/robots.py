@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
@@ -32,6 +33,9 @@ from linkforge_compile.core.models.srdf import GroupState
 from linkforge_compile.core.models.transmission import TransmissionActuator, TransmissionJoint
 
 Path: TypeAlias = tuple[str, ...]
+
+_PADDED = re.compile(r"(?<=\d)e-0+(?=\d)")
+"""A negative exponent as Python writes it, 1e-08; the language writes 1e-8, which no reader of a number tells apart."""
 
 
 def walk(path: Path, before: object, after: object, context: CompareContext) -> Iterator[Difference]:
@@ -82,8 +86,10 @@ def _compare_leaves(path: Path, before: object, after: object, context: CompareC
 
 
 def _is_same_in_xml(before: object, after: object, context: CompareContext) -> bool:
-    if not context.in_xml or context.as_spelt or not isinstance(before, str) or not isinstance(after, str):
+    if not context.in_xml or not isinstance(before, str) or not isinstance(after, str):
         return False
+    if context.as_spelt:
+        return _PADDED.sub("e-", before) == _PADDED.sub("e-", after)
     return spell_same_numbers(before, after, context.tolerance)
 
 

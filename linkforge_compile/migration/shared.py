@@ -67,7 +67,8 @@ class _Declared:
 def with_shared(specs: Mapping[FileDraft, Spec], file: str) -> tuple[Mapping[FileDraft, Spec], Spec | None]:
     """Return specs without what several of them declare alike, and the file that they include for it, if any."""
     declared = {draft: _Declared.of(spec) for draft, spec in specs.items()}
-    shared = _shared([*declared.values()])
+    robot = next(one for draft, one in declared.items() if not draft.is_module)
+    shared = _shared([*declared.values()], robot)
     if not shared:
         return specs, None
     entries: dict[str, dict[str, YamlEntry]] = {section: {} for section in _SECTIONS.values()}
@@ -84,7 +85,8 @@ def with_shared(specs: Mapping[FileDraft, Spec], file: str) -> tuple[Mapping[Fil
     return made, Spec("", tree, {}, {}, comments=comments)
 
 
-def _shared(declared: Sequence[_Declared]) -> set[_Key]:
+def _shared(declared: Sequence[_Declared], robot: _Declared) -> set[_Key]:
+    """Return what several specs declare; the robot would gain a material that it only includes."""
     counts = Counter(key for one in declared for key in one.entries)
     found = {key for key, count in counts.items() if count > 1}
     while True:
@@ -93,6 +95,7 @@ def _shared(declared: Sequence[_Declared]) -> set[_Key]:
             key
             for key in found
             if not all(one.is_free(key) for one in users)
+            or (key[0] == "materials" and robot in users and key not in robot.entries)
             or not all(one.is_alone(key, found) for one in users if key in one.entries)
         }
         if not refused:

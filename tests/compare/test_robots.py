@@ -174,6 +174,8 @@ def test_tags_of_one_kind_in_raw_xml_have_an_order():
         ("<foo>9007199254740993</foo>", "<foo>9007199254740993.0</foo>", []),
         ("<foo>1000001</foo>", "<foo>1000000</foo>", ["extra/foo: 1000001 → 1000000 (-0.0001 %)"]),
         ("<foo><plugin>1.10</plugin></foo>", "<foo><plugin>1.1</plugin></foo>", ["extra/foo/plugin: 1.10 → 1.1"]),
+        ("<foo><plugin>2.5e-08</plugin></foo>", "<foo><plugin>2.5e-8</plugin></foo>", []),
+        ("<foo><plugin>1e05</plugin></foo>", "<foo><plugin>1e5</plugin></foo>", ["extra/foo/plugin: 1e05 → 1e5"]),
     ],
 )  # fmt: skip
 def test_elements_texts_and_numbers_of_raw_xml_are_distinguished(before: str, after: str, texts: list[str]):

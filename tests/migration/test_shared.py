@@ -85,3 +85,25 @@ def test_a_name_that_means_something_else_in_one_of_the_specs_is_not_shared(tmp_
 """
     made = migrated(tmp_path, text)
     assert made.files["robot_shared.yaml"].startswith("linkforge: 1\n\nvariables:\n  wheel_width: 0.05\n\nmaterials:")
+
+
+def test_a_material_that_only_modules_have_is_none_of_a_robot_without_them(tmp_path: Path):
+    text = """
+<xacro:arg name="cameras" default="false"/>
+<xacro:property name="size" value="0.1"/>
+<xacro:macro name="eye" params="name">
+  <link name="${name}"><visual>
+    <geometry><sphere radius="${size}"/></geometry><material name="gray"><color rgba="0.5 0.5 0.5 1"/></material>
+  </visual></link>
+  <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+</xacro:macro>
+<xacro:macro name="ear" params="name">
+  <link name="${name}"><visual>
+    <geometry><box size="1 1 1"/></geometry><material name="gray"><color rgba="0.5 0.5 0.5 1"/></material>
+  </visual></link>
+  <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+</xacro:macro>
+<link name="base"><visual><geometry><sphere radius="${size}"/></geometry></visual></link>
+<xacro:if value="$(arg cameras)"><xacro:eye name="left"/><xacro:ear name="right"/></xacro:if>"""
+    made = migrated(tmp_path, text)
+    assert "materials" not in made.files["robot_shared.yaml"]
