@@ -78,16 +78,16 @@ def prepare_sweep(spec: str, values: str, count: str, anew: str = "") -> Callabl
 
     plan = plan_of(Request(spec, "robot"), Choice((f"{values}:{count}",)))
     points = plan.points_of(Chunk(0, plan.size))
-    shared = None if anew else plan.request.shared_modules()
+    modules = None if anew else plan.request.new_cache()
 
     def turn() -> None:
         for point in points:
             if anew == "files":
                 spec_tree._cache = spec_tree._TreeCache()
-            if make(plan.request, point, shared=shared).row["errors"]:
+            if make(plan.request, point, cache=modules).row["errors"]:
                 sys.exit(f"{spec} has errors")
 
-    make(plan.request, points[0], shared=shared)
+    make(plan.request, points[0], cache=modules)
     return lambda: turn
 
 

@@ -30,7 +30,7 @@ from linkforge_compile.source import SourceFile
 
 if TYPE_CHECKING:
     from linkforge_compile.diagnostics.reports import Suppression
-    from linkforge_compile.expand.shared_modules import SharedModules
+    from linkforge_compile.expand.module_cache import ModuleCache
 
 Parameters: TypeAlias = Mapping[str, object] | Iterable[str]
 """Values by name, as Python values or text with units; or `name=value` pairs, as on the command line, which the
@@ -65,8 +65,8 @@ class Settings(NamedTuple):
     ones. `folders` are those where relative paths of meshes start, by the name of the format, as far as they are known.
     `whole` is the budget that this compile shares with others. `buffers` are texts that are read instead of files, such
     as those of an editor that are not saved, by the real path of the file. `beside` is another file that the user
-    names: the spec may read what that one may. `shared` are the modules of other compiles that have the same settings
-    but for parameters that they know of, and the variant.
+    names: the spec may read what that one may. `cache` has modules of compiles with the same
+    settings but for some parameters and the variant.
     """
 
     parameters: Parameters | None = None
@@ -80,7 +80,7 @@ class Settings(NamedTuple):
     whole: Budget | None = None
     buffers: Mapping[str, str] = MappingProxyType({})
     beside: Path | None = None
-    shared: SharedModules | None = None
+    cache: ModuleCache | None = None
 
     @property
     def packages_by_name(self) -> dict[str, Path]:
@@ -98,7 +98,7 @@ class Settings(NamedTuple):
         roots = ANYWHERE if self.allow_outside else Roots.around(place, packages.values())
         if self.beside:
             roots = roots.with_those_around(self.beside)
-        sources = self.shared.sources if self.shared else None
+        sources = self.cache.sources if self.cache else None
         return Loader(packages, roots, Budget(within=self.whole), self.buffers, sources)
 
     def arguments(self, loader: Loader, sink: Diagnostics) -> Arguments:
@@ -189,9 +189,9 @@ def expand_and_lower(
     from linkforge_compile.core.resolver import FileSystemResolver
 
     arguments = settings.arguments(loader, sink)
-    sharing = settings.shared.of_compile(settings.variant, loader, sink) if settings.shared else None
-    instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant, sharing=sharing)
-    lowered = lower(instance, sink, meshes, sharing)
+    cache = settings.cache.for_compile(settings.variant, loader, sink) if settings.cache else None
+    instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant, cache=cache)
+    lowered = lower(instance, sink, meshes, cache)
     # Meshes are looked for in the user's packages, the spec's, then those of its modules.
     resolver = FileSystemResolver(packages={**instance.packages_of_all, **loader.packages}, roots=loader.roots)
     for robot, unresolved in lowered.robots:

@@ -61,22 +61,22 @@ class Diagnostics:
         # Of the warnings and notes that are kept: a group, or the number of a single one.
         self._groups: set[Hashable] = set()
         self._left_out = 0
-        self._recordings: list[list[Diagnostic]] = []
+        self._recorded: list[Diagnostic] | None = None
 
     @contextmanager
     def recording(self) -> Iterator[list[Diagnostic]]:
         """Collect everything that is reported meanwhile, kept or not."""
-        recording: list[Diagnostic] = []
-        self._recordings.append(recording)
+        recorded: list[Diagnostic] = []
+        self._recorded = recorded
         try:
-            yield recording
+            yield recorded
         finally:
-            self._recordings.pop()
+            self._recorded = None
 
     def report(self, diagnostic: Diagnostic) -> None:
         """Keep a diagnostic, or only count it if there are many; BeyondLimitError if there are too many."""
-        for recording in self._recordings:
-            recording.append(diagnostic)
+        if self._recorded is not None:
+            self._recorded.append(diagnostic)
         is_error = diagnostic.severity is Severity.ERROR
         self._errors_reported += is_error
         is_kept = self._is_kept(diagnostic)

@@ -23,8 +23,8 @@ What each module knows; it imports only those above it:
     modules           an entry of `modules` -> ModuleEntry; a module and overrides -> what is left of it
     macro_module      an entry of `modules` with `macro` -> what the macro makes, with a `mount`
     data_tags         a number of a data file with a tag of xacro -> in SI units
-    varied            a file -> what in its modules may differ from compile to compile
-    shared_modules    what one compile made of a module -> the same in another compile
+    varied            a file -> what may differ in its modules from compile to compile
+    module_cache      a module in which nothing differs -> what an earlier compile made of it
     file_scope        one use of a file -> the names, values and functions that its expressions know
     expand_uses       all of this for a file, then for each file that it uses
 """
@@ -47,7 +47,7 @@ from linkforge_compile.load.locations import mesh_base, mesh_finder
 from linkforge_compile.load.spec_tree import is_computed
 
 if TYPE_CHECKING:
-    from linkforge_compile.expand.shared_modules import Sharing
+    from linkforge_compile.expand.module_cache import CacheOfCompile
 
 
 def expand(
@@ -58,20 +58,20 @@ def expand(
     *,
     unset: Unset = Unset.ERROR,
     variant: str | None = None,
-    sharing: Sharing | None = None,
+    cache: CacheOfCompile | None = None,
 ) -> Instance:
     """Compute every expression of a file and of the modules that it uses.
 
     Faulty parts are reported and become YamlFaults; a module that cannot be read is an Instance without a tree.
     `unset` says how to report required parameters without a value. `variant` selects one of the file's `variants`.
-    `sharing` has the modules of earlier compiles of the file.
+    `cache` has modules of earlier compiles.
     """
     if variant is None and not arguments.entries and is_plain(spec):
         return plain_instance(spec, loader)
     # Importing the rest of this package and the expressions takes 45 ms, which plain robots need not wait for.
     from linkforge_compile.expand.expand_uses import expand_uses
 
-    return expand_uses(spec, arguments, loader, sink, unset=unset, variant=variant, sharing=sharing)
+    return expand_uses(spec, arguments, loader, sink, unset=unset, variant=variant, cache=cache)
 
 
 def is_plain(spec: SpecFile) -> bool:

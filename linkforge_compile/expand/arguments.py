@@ -9,6 +9,7 @@ import sys
 from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple, cast
@@ -76,13 +77,19 @@ class Arguments:
                 yield (self.folder or Path()) / entry.value.text.removeprefix("file://")
 
 
+@lru_cache(maxsize=1_000)
+def typed_file(name: str, text: str) -> SourceFile:
+    """Return the file of a text that was typed: the same one in every compile, so that places in it are equal."""
+    return SourceFile(name, text)
+
+
 def arguments_from_text(pairs: Sequence[str], sink: Diagnostics) -> Arguments:
     """Read `name=value` or ROS's `name:=value`; malformed and duplicate ones are reported."""
     entries: dict[str, YamlEntry] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
         name = name.removesuffix(":").strip()
-        file = SourceFile(COMMAND_LINE, pair)
+        file = typed_file(COMMAND_LINE, pair)
         if not (name and equals):
             sink.report(NOT_AN_ASSIGNMENT.at(_span(file, 0, len(pair)), text=pair))
             continue

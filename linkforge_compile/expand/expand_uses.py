@@ -15,9 +15,10 @@ from linkforge_compile.expand.evaluate import Evaluator, Expressions
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.file_scope import CompileState, FileScope, Use
 from linkforge_compile.expand.instance import Instance, NameReference, charge_entries, own_name, robot_part
+from linkforge_compile.expand.module_cache import CacheOfCompile
 from linkforge_compile.expand.modules import ModuleEntry, apply_override, read_modules
 from linkforge_compile.expand.parameter_values import BoundArguments
-from linkforge_compile.expand.shared_modules import Sharing
+from linkforge_compile.expand.varied import Varied
 from linkforge_compile.load.loader import Loader, SpecFile, with_use_trace
 from linkforge_compile.load.locations import (
     SPEC_ENDINGS,
@@ -49,14 +50,14 @@ def expand_uses(
     *,
     unset: Unset,
     variant: str | None,
-    sharing: Sharing | None = None,
+    cache: CacheOfCompile | None = None,
 ) -> Instance:
     """Compute every expression of a file and of the modules that it uses; see `expand`."""
     if report_unknown_variants(variant, spec, sink):
         # It may have set parameters, so missing ones are not reported.
         arguments = replace(arguments, is_partial=True)
-    state = CompileState(spec, loader, Expressions(loader.budget), unset, variant, sharing)
-    varied = sharing.shared.varied if sharing else None
+    state = CompileState(spec, loader, Expressions(loader.budget), unset, variant, cache)
+    varied = cache.varied if cache else None
     return _Expander(state, sink).expand(Use(spec, BoundArguments(arguments, sink), varied=varied))
 
 
@@ -86,7 +87,7 @@ class _Expander:
         if references and tree is not written:
             references = references_left(references, written, tree)
         charge_entries(tree, len(use.chain), self._state.loader.budget, use.bound.use)
-        modules = tuple(self._shared_module(entry, use, scope) for entry in entries)
+        modules = tuple(self._module(entry, use, scope) for entry in entries)
         writers, compiled = use.writers(scope.packages), self._state.compiled
         scope.check_unused_variables()
         return Instance(
@@ -109,23 +110,20 @@ class _Expander:
             spec=use.spec,
         )
 
-    def _shared_module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:
-        """Expand a module, or take it from an earlier compile if nothing in it can be other than there."""
-        sharing, key, varied = self._state.sharing, entry.ref.key, None
-        if sharing and outer.varied is not None and isinstance(key, YamlScalar):
-            varied = sharing.shared.varied_in_modules(outer.spec, outer.varied).get(key.text)
+    def _module(self, entry: ModuleEntry, outer: Use, scope: FileScope) -> Instance:
+        """Return a module, from the cache if nothing in it differs from other compiles."""
+        cache = self._state.cache
+        varied = cache.varied_in(outer.spec, outer.varied, entry.ref.key) if cache else None
         make = partial(self._expand_module, entry, outer, scope, varied)
-        if not sharing or key is None or varied is None or varied:
+        if cache is None or varied is None or varied:
             return make()
-        names = (*reversed([use.module for use in outer.include_stack]), entry.name)
-        instance = sharing.expanded(names, key.span, make)
+        use = (entry.ref.span, entry.name, entry.repetition, *outer.place_in_robot)
+        instance = cache.expanded(use, entry.ref.span, make)
         self._used.update(each.spec.file for each in instance.with_modules if each.spec)
-        # A macro gives the entry other fields, which do not vary either.
+        # A macro gives the entry other fields, which do not differ either.
         return instance if entry.ref.node.child("macro") is not None else replace(instance, entry=entry.ref)
 
-    def _expand_module(
-        self, entry: ModuleEntry, outer: Use, scope: FileScope, varied: frozenset[str] | None
-    ) -> Instance:
+    def _expand_module(self, entry: ModuleEntry, outer: Use, scope: FileScope, varied: Varied) -> Instance:
         if entry.use is None:
             return _unread(entry)
         sink = scope.evaluator.sink
@@ -133,6 +131,8 @@ class _Expander:
         if spec is None or entry.use is None:
             return _unread(entry)
         bound = BoundArguments(entry.arguments, sink, entry.use.span)
+        if any("modules" in one.patch.entries for one in entry.overrides):
+            varied = None  # what differs in its modules is decided by the file alone
         use = Use(spec, bound, entry, outer, outer.writers(scope.packages), varied)
         instance = self.expand(use) if self._is_bounded(use, sink) else None
         return replace(instance, shared_link=entry.shared_link) if instance and entry.is_named else _unread(entry)

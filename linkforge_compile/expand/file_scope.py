@@ -24,11 +24,12 @@ from linkforge_compile.expand.data_tags import UNIT_TAGS, number_with_tag
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_quantity
 from linkforge_compile.expand.expand_tree import expand_node
 from linkforge_compile.expand.instance import NameReference
+from linkforge_compile.expand.module_cache import CacheOfCompile
 from linkforge_compile.expand.modules import ModuleEntry
 from linkforge_compile.expand.parameter_values import BoundArguments, parameter_value, report_unset
 from linkforge_compile.expand.parameters import Declaration, declarations
-from linkforge_compile.expand.shared_modules import Sharing
 from linkforge_compile.expand.values import Setting, plain_value
+from linkforge_compile.expand.varied import Varied
 from linkforge_compile.expressions import (
     FAULT,
     RESERVED_NAMES,
@@ -65,27 +66,30 @@ class CompileState:
     expressions: Expressions
     unset: Unset = Unset.ERROR
     variant: str | None = None
-    sharing: Sharing | None = None
+    cache: CacheOfCompile | None = None
 
 
 @dataclass(frozen=True)
 class Use:
-    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself.
-
-    `varied` are the parameters of the file whose values may be others in the next compile; None if anything may be.
-    """
+    """One use of a file: by an entry in the file of the `outer` use, or the compiled file itself."""
 
     spec: SpecFile
     bound: BoundArguments
     entry: ModuleEntry | None = None
     outer: Use | None = None
     outer_writers: Writers = field(default_factory=dict)
-    varied: frozenset[str] | None = None
+    varied: Varied = None
 
     @property
     def chain(self) -> tuple[Use, ...]:
         """The use itself and those around it, that of the compiled file last."""
         return (self, *self.outer.chain) if self.outer else (self,)
+
+    @property
+    def place_in_robot(self) -> tuple[tuple[Span, str, str], ...]:
+        """The entries that lead to it, with their names and the values of their `for`; none for the compiled file."""
+        entries = (use.entry for use in self.chain if use.entry)
+        return tuple((entry.ref.span, entry.name, entry.repetition) for entry in entries)
 
     @cached_property
     def prefix(self) -> str | Fault:

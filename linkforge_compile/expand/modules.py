@@ -34,6 +34,7 @@ class ModuleEntry:
 
     `arguments` are those of `with`. If `is_named` is false, the name or the prefix is faulty, so that the final names
     in the module are unknown. `overrides` apply in order. `shared_link` is as for `Instance`.
+    `repetition` has the values of its `for`, whose copies may have the same name.
     """
 
     name: str
@@ -44,6 +45,7 @@ class ModuleEntry:
     arguments: Arguments = field(default_factory=Arguments)
     overrides: tuple[Override, ...] = ()
     shared_link: str | None = None
+    repetition: str = ""
 
 
 def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[ModuleUse, ...]) -> Iterator[ModuleEntry]:
@@ -53,7 +55,8 @@ def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[Modu
     computed = expand_node(section, evaluator, shape, key="modules") if isinstance(section, YamlScalar) else section
     if isinstance(computed, YamlMap):
         for inner, entry in expand_entries(computed, evaluator, shape if computed is section else FREE):
-            yield _read_entry(entry, inner, spec.part_at(entry.key.span).folder, include_stack)
+            read = _read_entry(entry, inner, spec.part_at(entry.key.span).folder, include_stack)
+            yield read if inner is evaluator else replace(read, repetition=repr(inner.scope.own_values))
     elif computed is not None and not (isinstance(computed, YamlScalar) and computed.value is None):
         if not isinstance(computed, YamlFault):
             evaluator.sink.report(MODULES_NOT_MAP.at(computed.span, found=describe_node(computed)))

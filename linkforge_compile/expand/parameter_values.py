@@ -19,7 +19,7 @@ from linkforge_compile.diagnostics.codes.modules import (
     VARIANTS_DISAGREE,
 )
 from linkforge_compile.diagnostics.enumerations import MOST_LISTED, alternatives, listed
-from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants
+from linkforge_compile.expand.arguments import COMMAND_LINE, Arguments, Variants, typed_file
 from linkforge_compile.expand.evaluate import Evaluator, Expressions, report_interpolated_number
 from linkforge_compile.expand.parameters import (
     PARAMETER_TYPES,
@@ -38,7 +38,7 @@ from linkforge_compile.expressions import FAULT, Fault, Value
 from linkforge_compile.limits import Limit
 from linkforge_compile.load.loader import AnnotatingSink, SpecFile
 from linkforge_compile.load.locations import rebased
-from linkforge_compile.source import SourceFile, Span
+from linkforge_compile.source import Span
 from linkforge_compile.source.provenance import Kind
 from linkforge_compile.syntax import YamlFault, YamlList, YamlNode, YamlScalar, has_expression, read, scalar_value
 
@@ -99,7 +99,7 @@ class BoundArguments:
             return node
         if type_.name == "vector" and (numbers := _numbers_in(node)):
             return numbers
-        file = SourceFile(node.span.file.name, f"{name}: {node.text}")
+        file = typed_file(node.span.file.name, f"{name}: {node.text}")
         parsed = read(file, self.sink)
         value = None if parsed is None else parsed.get(name)
         if parsed is None or value is None:

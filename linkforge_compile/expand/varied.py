@@ -1,32 +1,33 @@
-"""What the parameters that vary from compile to compile may change, decided from the text of a file alone."""
+"""What may differ in the modules of a file from compile to compile, decided from its text alone."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeAlias
 
 from linkforge_compile.diagnostics import Diagnostics
 from linkforge_compile.expressions import parse_template
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar, has_expression
 from linkforge_compile.syntax.nodes import leaves_in
 
+Varied: TypeAlias = frozenset[str] | None
+"""The parameters of a use of a file whose values may differ from compile to compile; None if more of it may."""
+
 _PLACING = ("parent", "origin", "joint", "when", "for")
 """The keys of a module that decide whether it is there and where it is attached, not what is in it."""
 
 
-def varied_in_modules(tree: YamlMap, varied: frozenset[str]) -> dict[str, frozenset[str] | None]:
-    """Return the parameters of each module that may vary if `varied` parameters of its user do, by its key as written.
-
-    None for a module of which more than its parameters may vary, such as its file.
-    """
+def varied_in_modules(tree: YamlMap, varied: frozenset[str]) -> dict[str, Varied]:
+    """Return what may differ in each module of a file if these parameters of the file do, by its key as written."""
     varied, modules = _varied_names(tree, varied), tree.section("modules")
-    packages = tree.get("packages")  # in which any module may look for files
+    packages = tree.get("packages")
     if packages is not None and _names_in(packages) & varied:
-        return dict.fromkeys(modules)
-    return {entry.name: _varied_parameters(entry, varied) for entry in modules.values()}
+        return dict.fromkeys(modules)  # any module may look for its files in them
+    return {entry.name: _varied_in_module(entry, varied) for entry in modules.values()}
 
 
 def _varied_names(tree: YamlMap, varied: frozenset[str]) -> frozenset[str]:
-    """Return the names of a file whose values may vary if some of its parameters do."""
+    """Return the names of a file whose values may differ if these parameters do."""
     used = [(entry.name, _names_in(entry.value)) for entry in _declarations(tree)]
     while more := {name for name, names in used if name not in varied and names & varied}:
         varied |= more
@@ -44,21 +45,25 @@ def _declarations(tree: YamlMap) -> Iterator[YamlEntry]:
             yield from variant.value
 
 
-def _varied_parameters(module: YamlEntry, varied: frozenset[str]) -> frozenset[str] | None:
+def _varied_in_module(module: YamlEntry, varied: frozenset[str]) -> Varied:
     fields = module.value
     if not isinstance(fields, YamlMap):
         return None if _names_in(fields) & varied else frozenset()
-    names = fields.get("for")
-    for name in names if isinstance(names, YamlMap) else ():
-        varied |= {name.name} if _names_in(name.value) & varied else set()
-    arguments = fields.get("with")
-    is_placed = "macro" not in fields.entries  # a macro may use its place in any way
-    inside = fields.without("with", *_PLACING) if is_placed else fields.without("with", "when", "for")
-    given = list(arguments) if isinstance(arguments, YamlMap) else []
-    fixed = [module.key, inside, *(one.key for one in given), *([] if given or arguments is None else [arguments])]
-    if any(_names_in(one) & varied for one in fixed):
+    for name in fields.section("for").values():
+        if _names_in(name.value) & varied:
+            varied |= {name.name}
+    # A macro may use its place in any way.
+    inside = fields.without("with", *(("when", "for") if "macro" in fields.entries else _PLACING))
+    if (_names_in(module.key) | _names_in(inside)) & varied:
         return None
-    return frozenset(one.name for one in given if _names_in(one.value) & varied)
+    return _varied_arguments(fields.get("with"), varied)
+
+
+def _varied_arguments(arguments: YamlNode | None, varied: frozenset[str]) -> Varied:
+    if not isinstance(arguments, YamlMap):
+        return None if arguments is not None and _names_in(arguments) & varied else frozenset()
+    found = [one for one in arguments if (_names_in(one.key) | _names_in(one.value)) & varied]
+    return None if any(has_expression(one.name) for one in found) else frozenset(one.name for one in found)
 
 
 def _names_in(node: YamlNode) -> frozenset[str]:

@@ -212,6 +212,11 @@ class Scope:
         """Return an inner scope with these names, which hide equal names of this scope."""
         return Scope(values, self)
 
+    @property
+    def own_values(self) -> tuple[Value | Fault | Lazy, ...]:
+        """The values of the innermost names."""
+        return tuple(self._values.values())
+
     def __contains__(self, name: object) -> bool:
         return name in self._values or (self._outer is not None and name in self._outer)
 

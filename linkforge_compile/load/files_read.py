@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from copy import copy
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,8 @@ from linkforge_compile.syntax import YamlNode
 class FilesRead:
     """Lists in the order read, paths as their user would type them, and mappings by real path.
 
-    A file that is included twice is twice in `sources`. The files of `unread` and `unread_meshes` were requested, but
-    do not exist or cannot be read. `meshes` has what `lower` made of those that an inertia is computed from.
+    A file that is included twice is twice in `sources`. `meshes` are those that an inertia was computed from, each as
+    often as it was requested. The files of `unread` and `unread_meshes` do not exist or cannot be read.
     """
 
     sources: list[SourceFile] = field(default_factory=list)
@@ -26,12 +26,18 @@ class FilesRead:
     xml: dict[str, SourceFile] = field(default_factory=dict)
     by_xacro: list[Path] = field(default_factory=list)
     unread: list[Path] = field(default_factory=list)
-    meshes: dict[str, object] = field(default_factory=dict)
-    mesh_files: list[Path] = field(default_factory=list)
+    meshes: list[Path] = field(default_factory=list)
     unread_meshes: list[Path] = field(default_factory=list)
 
+    @property
+    def paths(self) -> Iterator[Path]:
+        """All files that were read."""
+        yield from (source.path for source in self.sources if source.path)
+        yield from self.by_xacro
+        yield from self.meshes
+
     def copy(self) -> FilesRead:
-        return FilesRead(*(copy(getattr(self, each.name)) for each in fields(self)))
+        return FilesRead(*(getattr(self, each.name).copy() for each in fields(self)))
 
     def since(self, before: FilesRead) -> FilesRead:
         """Return what was added since `before` was copied."""
@@ -39,7 +45,7 @@ class FilesRead:
         for each in fields(self):
             now, then = getattr(self, each.name), getattr(before, each.name)
             is_list = isinstance(now, list)
-            added.append(now[len(then) :] if is_list else {key: now[key] for key in now.keys() - then.keys()})
+            added.append(now[len(then) :] if is_list else {key: now[key] for key in now if key not in then})
         return FilesRead(*added)
 
     def add(self, others: FilesRead) -> None:

@@ -29,7 +29,7 @@ from linkforge_compile.syntax.nodes import YamlEntry, YamlMap, YamlNode, YamlSca
 if TYPE_CHECKING:
     from linkforge_compile.core.models.joint import Joint
     from linkforge_compile.core.models.robot import Robot
-    from linkforge_compile.expand.shared_modules import Sharing
+    from linkforge_compile.expand.module_cache import CacheOfCompile
     from linkforge_compile.lower.semantic import WrittenState
 
 
@@ -38,14 +38,14 @@ _SECTIONS_WITH_POSITIONS = frozenset({"transmissions", "gazebo"})
 
 
 def lower(
-    instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None, sharing: Sharing | None = None
+    instance: Instance, sink: Diagnostics, meshes: MeshSolids | None = None, cache: CacheOfCompile | None = None
 ) -> Lowered:
     """Make one robot of a file and its modules: the parts of the file, then those of each module, as written.
 
     The parts of a module get its prefix, and its joint comes after them. Every fault is reported, and what is faulty is
-    left out. `meshes` caches the meshes of this compile. `sharing` has the modules of earlier compiles of the file.
+    left out. `meshes` caches the meshes of this compile. `cache` has modules of earlier compiles.
     """
-    lowered = _Lowering(sink, meshes or MeshSolids(), instance.shared_files, sharing).lower(instance)
+    lowered = _Lowering(sink, meshes or MeshSolids(), instance.shared_files, cache).lower(instance)
     if any(each.defaults is not None for each in instance.with_modules):
         check_defaults(instance, sink)
     return lowered
@@ -57,14 +57,14 @@ class _Lowering(NamedTuple):
     sink: Diagnostics
     meshes: MeshSolids
     shared_files: frozenset[SourceFile]
-    sharing: Sharing | None
+    cache: CacheOfCompile | None
 
     def lower_module(self, module: Instance) -> Lowered:
-        """Lower a module, or take it from an earlier compile if its Instance is from there."""
-        if not (self.sharing and self.sharing.has(module)):
+        """Lower a module, or take it from the cache if its Instance may be from there."""
+        if not (self.cache and self.cache.has(module)):
             return self.lower(module)
         shared_files = self.shared_files.intersection(each.tree.span.file for each in module.with_modules if each.tree)
-        lowered = self.sharing.lowered(module, shared_files, partial(self.lower, module))
+        lowered = self.cache.lowered(module, shared_files, partial(self.lower, module))
         return replace(lowered, robot=lowered.robot and _own_copy(lowered.robot))
 
     def lower(self, instance: Instance) -> Lowered:

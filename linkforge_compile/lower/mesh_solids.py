@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from linkforge_compile.core.meshes import MAX_BYTES, MeshError, MeshFault, solid_in
 from linkforge_compile.core.models.geometry import Mesh
@@ -62,6 +62,7 @@ class MeshSolids:
         """`budget` and `files` are those of the compile; None for new ones."""
         self._budget = budget or Budget()
         self._files = files or FilesRead()
+        self._known: dict[str, Solid | MeshError] = {}  # by real path
         self._uncollected = 0
         self.is_without_library = False
         """Whether a package that reads meshes is missing, which is reported once."""
@@ -69,7 +70,7 @@ class MeshSolids:
     @property
     def files(self) -> tuple[Path, ...]:
         """Every mesh file that was read, in that order, as its user would type it."""
-        return tuple(self._files.mesh_files)
+        return tuple(dict.fromkeys(self._files.meshes))
 
     @property
     def unread(self) -> tuple[Path, ...]:
@@ -85,9 +86,11 @@ class MeshSolids:
 
         """
         real = identity(path)
-        known = cast("Solid | MeshError | None", self._files.meshes.get(real))
+        known = self._known.get(real)
         if known is None and (known := self._read(path, where)) is not None:
-            self._files.meshes[real] = known
+            self._known[real] = known
+        if known is not None:
+            self._files.meshes.append(as_typed(path))
         if isinstance(known, MeshError):
             raise known
         return known
@@ -97,7 +100,6 @@ class MeshSolids:
         if content is None:
             return None
         self._budget.spend(Limit.MESH_BYTES, len(content), where)
-        self._files.mesh_files.append(as_typed(path))
         self._uncollected += len(content)
         if self._uncollected > _BYTES_UNTIL_COLLECTION:
             gc.collect()

@@ -55,7 +55,7 @@ What each module knows; it imports only those above it:
     session      a plan -> a finished sweep, and what went wrong in it
 
 A process reads and validates a file once, however many points it compiles: load/spec_tree.py keeps faultless trees by
-place and text. It expands and lowers a module once that no varied parameter reaches: see expand/shared_modules.py.
+place and text. It expands and lowers a module once that no varied parameter reaches: see expand/module_cache.py.
 """
 
 from __future__ import annotations

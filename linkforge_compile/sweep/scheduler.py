@@ -13,7 +13,7 @@ from typing import Any
 from uuid import uuid4
 
 from linkforge_compile._version import __version__
-from linkforge_compile.expand.shared_modules import SharedModules
+from linkforge_compile.expand.module_cache import ModuleCache
 from linkforge_compile.roots import exists
 from linkforge_compile.sweep.arrow import distributed
 from linkforge_compile.sweep.bundle import Bundle, Files, Tree
@@ -144,19 +144,19 @@ _TREES = 2
 
 def _work(job: bytes, blobs: Sequence[Mapping[str, bytes]], points: list[Point]) -> list[Made]:
     """Compile points in a tree of the client's files."""
-    (request, bundle, version, sweep), shared = _loaded(job)
+    (request, bundle, version, sweep), cache = _loaded(job)
     if version != __version__:
         raise SweepError(f"a worker has linkforge-compile {__version__}, and the sweep was begun with {version}")
-    return make_all(request, points, _tree_of(sweep, bundle, blobs), shared)
+    return make_all(request, points, _tree_of(sweep, bundle, blobs), cache)
 
 
 @lru_cache(maxsize=2)
-def _loaded(job: bytes) -> tuple[Job, SharedModules]:
-    """Return a job, and the modules that its robots share in this process."""
+def _loaded(job: bytes) -> tuple[Job, ModuleCache]:
+    """Return a job, and the cache of its modules in this process."""
     import cloudpickle
 
     loaded: Job = cloudpickle.loads(job)
-    return loaded, loaded[0].shared_modules()
+    return loaded, loaded[0].new_cache()
 
 
 def _tree_of(sweep: str, bundle: Bundle, blobs: Sequence[Mapping[str, bytes]]) -> Tree:

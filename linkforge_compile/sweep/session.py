@@ -125,9 +125,9 @@ def _results(plan: Plan, files: Files, place: Place, chunks: list[Chunk]) -> Res
     if not chunks:
         return
     if place.is_here:
-        shared = plan.request.shared_modules()
+        cache = plan.request.new_cache()
         for chunk in chunks:
-            made = make_all(plan.request, plan.points_of(chunk), shared=shared)
+            made = make_all(plan.request, plan.points_of(chunk), cache=cache)
             files = files.with_paths({path for one in made for path in one.read})
             yield chunk, made, files.bundle
         return

@@ -13,8 +13,8 @@ from linkforge_compile.banner import banner_of
 from linkforge_compile.core.exceptions import RobotModelError
 from linkforge_compile.core.models.robot import Robot
 from linkforge_compile.diagnostics import Diagnostics
+from linkforge_compile.expand.module_cache import ModuleCache
 from linkforge_compile.expand.parameters import Parameter
-from linkforge_compile.expand.shared_modules import SharedModules
 from linkforge_compile.formats import Rendering, formats_or_default
 from linkforge_compile.formats.mesh_paths import meshes_of
 from linkforge_compile.shape_files import ShapeFiles
@@ -57,9 +57,9 @@ class Request(NamedTuple):
     has_files: bool = True
     function: Function | None = None
 
-    def shared_modules(self) -> SharedModules:
-        """Return the modules that points share, none yet; for one process, and one tree."""
-        return SharedModules(self.columns)
+    def new_cache(self) -> ModuleCache:
+        """Return a cache of the modules of its points, for one process and one tree."""
+        return ModuleCache(self.columns)
 
     def settings(self, point: Point, tree: Tree | None = None) -> Settings:
         """Return the settings of a point; in a tree, the packages lie there."""
@@ -86,19 +86,19 @@ class Made(NamedTuple):
 
 
 def make_all(
-    request: Request, points: Sequence[Point], tree: Tree | None = None, shared: SharedModules | None = None
+    request: Request, points: Sequence[Point], tree: Tree | None = None, cache: ModuleCache | None = None
 ) -> list[Made]:
     """Compile points, in the client's own folders, or in a tree of its files.
 
-    `shared` has the modules of points that were compiled here before.
+    `cache` has modules of points that were compiled here before.
     """
     with tree.inside() if tree else nullcontext():
-        return [make(request, point, tree, shared) for point in points]
+        return [make(request, point, tree, cache) for point in points]
 
 
-def make(request: Request, point: Point, tree: Tree | None = None, shared: SharedModules | None = None) -> Made:
+def make(request: Request, point: Point, tree: Tree | None = None, cache: ModuleCache | None = None) -> Made:
     """Compile one point; a robot with errors has a row with its diagnostics."""
-    compilation = compile_point(request, point, tree, shared)
+    compilation = compile_point(request, point, tree, cache)
     hide = tree.top if tree else ""
     values = values_of(request, point)
     row: Row = {"index": point.index, **({} if point.variant is None else {"variant": point.variant})}
@@ -118,11 +118,13 @@ def make(request: Request, point: Point, tree: Tree | None = None, shared: Share
 
 
 def compile_point(
-    request: Request, point: Point, tree: Tree | None = None, shared: SharedModules | None = None
+    request: Request, point: Point, tree: Tree | None = None, cache: ModuleCache | None = None
 ) -> Compilation:
     """Compile the spec at a point."""
-    spec = tree.place(request.spec) if tree else request.spec
-    return analyse_path(spec, request.settings(point, tree)._replace(shared=shared)).compilation
+    spec, settings = tree.place(request.spec) if tree else request.spec, request.settings(point, tree)
+    compilation = analyse_path(spec, settings._replace(cache=cache)).compilation
+    # With the cache, a compile may exceed a limit within which it is alone.
+    return analyse_path(spec, settings).compilation if cache and compilation.has_errors else compilation
 
 
 def files_of(compilation: Compilation) -> tuple[Path, ...]:
