@@ -204,6 +204,7 @@ class Evaluator(ABC):
             node = self.calls.argument(self.path_text(name), context, self)
             return (node,) if isinstance(node, Reference) else as_parts(node)
         if kind == "find":
+            self.sources.note_package(name)
             return (call("path", as_expression(joined(("package://",), name))),)
         if kind == "optenv":
             variable, *default = self.path_text(name).split()

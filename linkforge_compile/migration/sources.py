@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import suppress
 from functools import partial
 from glob import glob
 from itertools import takewhile
@@ -17,7 +18,7 @@ from linkforge_compile.file_names import stem_of
 from linkforge_compile.importers.origin import relative_path
 from linkforge_compile.importers.xml import read_xml
 from linkforge_compile.load import ImportSite, Loader
-from linkforge_compile.migration.symbols import CannotTranslateError, MissingFileError
+from linkforge_compile.migration.symbols import CannotTranslateError, MissingFileError, Parts
 from linkforge_compile.paths import find_package, folders_for_xacro
 from linkforge_compile.source import SourceFile
 from linkforge_compile.source.xml_tree import XmlDocument
@@ -82,6 +83,12 @@ class Sources:
             raise MissingFileError(f"no package named '{package}'; pass --package {package}=FOLDER")
         self._found[package] = folder.absolute()
         return folder.absolute()
+
+    def note_package(self, name: Parts) -> None:
+        """Count a package among those found, if its name is known and it is there."""
+        if len(name) == 1 and isinstance(name[0], str):
+            with suppress(MissingFileError):
+                self.find(name[0])
 
     @property
     def packages(self) -> dict[str, str]:

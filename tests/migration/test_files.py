@@ -80,3 +80,20 @@ def test_comments_of_files_macros_and_calls_come_along(tmp_path: Path):
     assert "  # Wheels\n  $(wheel.base_name):\n" in robot
     assert "# Where the battery is.\n" in robot
     assert proved.files["wheel.robot.yaml"].startswith("# Moves the wheel.\n\nlinkforge: 1\n")
+
+
+def test_a_package_that_only_a_value_names_is_declared(tmp_path: Path):
+    arm, specs = tmp_path / "vendor/arm", tmp_path / "robots"
+    arm.mkdir(parents=True)
+    specs.mkdir()
+    (arm / "package.xml").write_text("<package><name>arm</name></package>", "utf-8")
+    main = write(
+        arm,
+        robot="""
+        <link name="base"><visual><geometry><mesh filename="file://$(find arm)/a.stl"/></geometry></visual></link>
+        """,
+    )
+    loader = Settings(allow_outside=True).loader(main)
+    proved = Migrator(main, {}, specs, loader, Diagnostics()).run()
+    assert "packages:\n  arm: ../vendor/arm\n" in proved.files["robot.robot.yaml"]
+    assert proved.is_equal
