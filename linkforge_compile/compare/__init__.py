@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from linkforge_compile.compare.context import TOLERANCE
 from linkforge_compile.compare.difference import Difference, Kind
-from linkforge_compile.compare.folders import with_folders
+from linkforge_compile.compare.folders import with_folders, with_texts
 from linkforge_compile.compare.matching import RemovedName, removed_parts, removed_public_names
 from linkforge_compile.compare.robots import compare

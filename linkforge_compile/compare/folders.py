@@ -24,7 +24,12 @@ def with_folders(robot: Robot, folders: Mapping[str, str]) -> Robot:
     choices = "|".join(map(re.escape, sorted(moved, key=len, reverse=True)))
     # As `package_paths` of an import finds them, so that `/opt/arm` is not in `/opt/arm2` or `/data/opt/arm`.
     pattern = re.compile(rf"(?:(?<=file://)|(?<![\w./-]))(?:{choices})(?![\w.-])")
-    found = _map_texts(robot, partial(pattern.sub, lambda match: moved[match[0]]))
+    return with_texts(robot, partial(pattern.sub, lambda match: moved[match[0]]))
+
+
+def with_texts(robot: Robot, change: Callable[[str], str]) -> Robot:
+    """Return a robot with all texts in it changed. Only fields that are compared are complete in the result."""
+    found = _map_texts(robot, change)
     assert isinstance(found, Robot)
     return found
 

@@ -16,6 +16,7 @@ from linkforge_compile.importing import as_read_back, import_urdf
 from linkforge_compile.load import Loader
 from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
 from linkforge_compile.migration.deadline import Deadline
+from linkforge_compile.migration.plain_paths import with_plain_paths
 from linkforge_compile.migration.without_effect import leave_out
 from linkforge_compile.pipeline import compile_path, compile_source
 from linkforge_compile.roots import identity
@@ -113,7 +114,7 @@ class Prover:
         if robot is None:
             return Comparison(arguments, fault=_first_error(faults))
         leave_out(robot)
-        found = compare(expected, robot, tolerance=TOLERANCE, semantic=False)
+        found = compare(expected, with_plain_paths(robot), tolerance=TOLERANCE, semantic=False)
         return Comparison(arguments, tuple(f"{'/'.join(one.path)}: {one.text}" for one in found))
 
     def _expansion(self, arguments: Arguments) -> Robot | tuple[Diagnostic, ...]:
@@ -132,7 +133,7 @@ class Prover:
         if compilation.robot is None:  # the import's errors have their places in the xacro
             return _errors_in(imported.diagnostics) or _errors_in(compilation.diagnostics)
         leave_out(compilation.robot)
-        return compilation.robot
+        return with_plain_paths(compilation.robot)
 
 
 def _errors_in(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:

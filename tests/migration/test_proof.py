@@ -68,3 +68,33 @@ def test_verify_tells_that_a_parameter_is_gone(tmp_path: Path):
     ran = linkforge("migrate", "robot.xacro", "--verify", cwd=tmp_path)
     assert ran.returncode == 1
     assert "'robot.robot.yaml' has no parameter 'base_name', which is the argument 'name'" in ran.stderr  # LF8050
+
+
+@pytest.mark.parametrize("folder", ["work/robots", "my work/robots"])
+def test_a_path_through_a_parent_folder_is_the_same_file(tmp_path: Path, folder: str):
+    """What a working folder or `$(find)` puts before a path does not make it another file."""
+    here, vendor = tmp_path / folder, tmp_path / "vendor/arm"
+    here.mkdir(parents=True)
+    (vendor / "meshes").mkdir(parents=True)
+    (vendor / "package.xml").write_text("<package><name>arm</name></package>", "utf-8")
+    meshes = [
+        "$(find arm)/meshes/a.stl",
+        "$(find arm)/../arm/meshes/b.stl",
+        "${'$(find arm)/meshes/../meshes/c.stl'}",
+    ]
+    visual = '<visual name="v{}"><geometry><mesh filename="file://{}"/></geometry></visual>'
+    plugin = '<gazebo><plugin name="p" filename="p.so"><file>$(find arm)/../arm/p.yaml</file></plugin></gazebo>'
+    visuals = "".join(visual.format(number, mesh) for number, mesh in enumerate(meshes))
+    write(vendor, robot=f'<link name="base">{visuals}</link>{plugin}')
+    up = "../../vendor/arm"
+    for packages in ([], ["--package", f"arm={up}"]):
+        command = ["migrate", f"{up}/robot.xacro", *packages, "-o", ".", "--allow-outside"]
+        ran = linkforge(*command, "--force", cwd=here)
+        assert ran.returncode == 0, ran.stderr
+        assert "1 of 1 combination" in ran.stdout
+        assert linkforge(*command, "--verify", cwd=here).returncode == 0
+    spec = here / "robot.robot.yaml"
+    spec.write_text(spec.read_text("utf-8").replace("a.stl", "other.stl"), "utf-8")
+    ran = linkforge(*command, "--verify", cwd=here)
+    assert ran.returncode == 1
+    assert "other.stl" in ran.stderr
