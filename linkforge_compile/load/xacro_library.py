@@ -220,7 +220,7 @@ class _Search:
             folder = next(folders_for_xacro(name, self._loader.packages, user.parent, self._loader.roots), None)
             if folder is None:
                 raise _NotFollowedError(f"no package named '{name}'; specify its folder with --package {name}=FOLDER")
-            return str(folder)
+            return str(folder.absolute())
         declared = self.declarations.get(name)
         default = declared.get("default") if declared else None
         if default is None or "$" in default:

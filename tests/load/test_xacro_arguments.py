@@ -85,6 +85,18 @@ def test_files_of_a_missing_package_are_reported_and_found_with_package(arm: Pat
     assert ([one.name for one in listing.parameters], diagnostic) == (["name", "mass"], ())
 
 
+def test_a_package_named_by_a_relative_folder_is_that_of_the_working_directory(
+    arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "cells").mkdir()
+    (tmp_path / "cells" / "cell.xacro").write_text(
+        f'{HEAD} name="cell"><xacro:include filename="$(find parts)/urdf/parts.xacro"/></robot>', "utf-8"
+    )
+    monkeypatch.chdir(tmp_path)
+    listing, diagnostics = parameters_of(Path("cells/cell.xacro"), packages={"parts": arm.parent.relative_to(tmp_path)})
+    assert ([one.name for one in listing.parameters], diagnostics) == (["mass"], ())
+
+
 def test_a_urdf_and_its_srdf_take_of_the_arguments_what_each_has(arm: Path, tmp_path: Path):
     pytest.importorskip("xacro")
     urdf, srdf = without_includes(arm), tmp_path / "arm_moveit" / "urdf" / "arm.srdf.xacro"
