@@ -9,11 +9,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from linkforge_compile.diagnostics import Diagnostics, Note
-from linkforge_compile.diagnostics.codes.importing import MACRO_PLACES_ITSELF
+from linkforge_compile.diagnostics.codes.importing import MACRO_PLACES_ITSELF, MACRO_SETS_FIELD
 from linkforge_compile.diagnostics.codes.modules import PARAMETER_NOT_SET
 from linkforge_compile.expand.long_forms import with_frames_as_joints
 from linkforge_compile.expand.modules import ModuleEntry
 from linkforge_compile.load.loader import Loader, SpecFile
+from linkforge_compile.load.macro_roles import ORIGIN
 from linkforge_compile.load.xacro import XacroUse
 from linkforge_compile.load.xacro_macro import MacroEntry, MacroResult, call_macro
 from linkforge_compile.syntax import YamlEntry, YamlMap, YamlNode, YamlScalar
@@ -39,7 +40,7 @@ def open_macro(
         return replace(result.spec, tree=tree), entry
     if parent is None and not result.is_stand_in:
         fields = fields.with_value("parent", result.parent)
-    _report_unused_origin(fields, joints, result, macro, sink)
+    _report_unused_origin(entry, joints, result, macro, sink)
     if fields.get("parent") is None and (len(joints) > 1 or _own_origin(joints, result)):
         what, note = f"'parent' of module '{entry.name}' has", Note("this joint attaches it", joints[-1].key.span)
         sink.report(PARAMETER_NOT_SET.at(macro.span, what=what, remedy="'parent: LINK'", notes=[note]))
@@ -56,13 +57,17 @@ def open_macro(
 
 
 def _report_unused_origin(
-    fields: YamlMap, joints: Sequence[YamlEntry], result: MacroResult, macro: YamlScalar, sink: Diagnostics
+    entry: ModuleEntry, joints: Sequence[YamlEntry], result: MacroResult, macro: YamlScalar, sink: Diagnostics
 ) -> None:
-    origin = fields.get("origin")
+    origin = entry.ref.node.get("origin") if isinstance(entry.ref.node, YamlMap) else None
     is_used = bool(result.placed) or (result.placed is None and len(joints) == 1)
-    if origin is not None and not is_used:
-        note = Note("this joint attaches it", joints[0].key.span)
-        sink.report(MACRO_PLACES_ITSELF.at(origin.span, macro=macro.text, notes=[note]))
+    if origin is None or is_used:
+        return
+    if given := result.origin:
+        sink.report(MACRO_SETS_FIELD.at(given.where, field=ORIGIN, name=entry.name, parameter=ORIGIN))
+        return
+    note = Note("this joint attaches it", joints[0].key.span)
+    sink.report(MACRO_PLACES_ITSELF.at(origin.span, macro=macro.text, notes=[note]))
 
 
 def _with_own_origin(fields: YamlMap, joints: Iterable[YamlEntry], result: MacroResult) -> YamlMap:

@@ -70,6 +70,7 @@ class MacroResult(NamedTuple):
 
     `parent` is the link, not among its own, to which it attaches its joint, `is_stand_in` if nobody named one; `placed`
     are the names of the joints, there or further on, whose origin is that of the entry, None for all of them there.
+    `origin` is the argument for the block that the entry's origin would be.
     """
 
     spec: SpecFile
@@ -77,6 +78,7 @@ class MacroResult(NamedTuple):
     parent: YamlScalar
     is_stand_in: bool
     placed: frozenset[str] | None
+    origin: XacroArgument | None
 
     def is_placed(self, joint: str) -> bool:
         """Whether a joint to the parent has the origin of the entry."""
@@ -116,7 +118,7 @@ def call_macro(use: XacroUse, entry: MacroEntry, loader: Loader, sink: Diagnosti
     if spec.tree.entries.keys().isdisjoint(("links", "frames")):
         sink.report(MACRO_WITHOUT_LINKS.at(entry.macro.span, macro=macro.name))
         return None
-    return MacroResult(spec, arguments.prefix, arguments.parent, arguments.is_stand_in, placed)
+    return MacroResult(spec, arguments.prefix, arguments.parent, arguments.is_stand_in, placed, arguments.origin)
 
 
 def _find(name: YamlScalar, library: XacroLibrary, sink: Diagnostics) -> Macro | None:
@@ -235,6 +237,12 @@ class _Arguments:
             self._report(MACRO_BLOCK.at(given.where, name=parameter.name, what=what, found=found, notes=notes))
             return None
         return given.text if parameter.block == "*" else f"<block>{given.text}</block>"
+
+    @property
+    def origin(self) -> XacroArgument | None:
+        """The argument for the block that the entry gives as its `origin`."""
+        parameter = self.macro.parameter(ORIGIN)
+        return self.given.get(ORIGIN) if parameter and parameter.block == "*" else None
 
     def require_dimensions(self) -> None:
         """Report the quantities that are not what the macro takes: to xacro, `3 kg` is 3, and so 3 metres of height."""

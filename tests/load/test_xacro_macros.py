@@ -332,6 +332,12 @@ FAULTS = {
         5,
         "parameter 'parent' of the macro is 'parent' of module 'a', which is set; remove one of them",
     ),
+    "two origins": (
+        "a: {macro: lidar, parent: deck, origin: [0, 0, 1], with: {origin: {xyz: [0, 0, 2]}}}",
+        "LF8037",
+        5,
+        "parameter 'origin' of the macro is 'origin' of module 'a', which is set; remove one of them",
+    ),
     "two prefixes": (
         "a: {macro: lidar, parent: deck, with: {prefix: x}, prefix: y}",
         "LF8037",
