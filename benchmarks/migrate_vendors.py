@@ -147,8 +147,8 @@ def _row(path: Path, given: Mapping[str, str], packages: Mapping[str, Path], spe
     }
     row["combinations"] = [{**one.arguments} for one in proved.comparisons if not one.refused]
     row["names"] = dict(proved.names)
-    if proved.figures is not None:
-        return row | {"figures": proved.figures.as_json()}
+    if proved.figures is not None and proved.proof is not None:
+        return row | {"figures": proved.figures._asdict() | proved.proof.as_json()}
     # Of a xacro that is used as it is, the macros that its files define are counted.
     roots = [document.root for document in migrator.sources.documents.values()]
     macros = [one for root in roots for one in root.walk() if one.tag == "xacro:macro"]

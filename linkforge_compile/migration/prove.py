@@ -26,7 +26,7 @@ from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Constraints, Migration, Translator
 from linkforge_compile.migration.proof import Comparison, Prover, Specs
-from linkforge_compile.migration.report import Figures, faults_of, figures_of, notes_of
+from linkforge_compile.migration.report import Figures, Proof, faults_of, figures_of, notes_of, proof_of
 from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import CannotTranslateError
 from linkforge_compile.pipeline import parameters_of
@@ -42,13 +42,15 @@ _CALLS_THEM = "to migrate them, write a xacro beside it that includes it, with a
 
 @dataclass
 class Proved:
-    """The specs of a xacro by their file names, with their proof; no `figures` if the xacro is used as it is."""
+    """The specs of a xacro by their file names, with their proof; no `proof` if the xacro is used as it is."""
 
     main: str
     files: Mapping[str, str]
     comparisons: Sequence[Comparison]
     diagnostics: Sequence[Diagnostic]
+    proof: Proof | None = None
     figures: Figures | None = None
+    """None if the specs that are there were compared, and not translated."""
     names: Mapping[str, str] = field(default_factory=dict)
     """The parameters of the robot by the arguments that they were."""
 
@@ -113,7 +115,7 @@ class Migrator:
             reason = next(iter(migration.calls.kept.values()))
             return self._kept(CannotTranslateError(reason))
         diagnostics = [*notes_of(migration), *self._faults_of(attempt.comparisons), *self._outside(migration)]
-        return self._proved(attempt, diagnostics)
+        return self._proved(attempt, diagnostics, figures_of(migration))
 
     def _mended(self, attempt: _Attempt) -> _Attempt:
         """Return an attempt with fewer failures, if there is one with raw XML or with macros in place."""
@@ -160,10 +162,10 @@ class Migrator:
         chosen = migration.combinations if combinations is None else combinations
         return _Attempt(migration, self._prover.compare(self._specs(migration), chosen))
 
-    def _proved(self, attempt: _Attempt, diagnostics: Sequence[Diagnostic]) -> Proved:
+    def _proved(self, attempt: _Attempt, diagnostics: Sequence[Diagnostic], figures: Figures | None = None) -> Proved:
         migration, comparisons = attempt
-        figures = figures_of(migration, comparisons)
-        return Proved(migration.main, migration.files, comparisons, diagnostics, figures, migration.names)
+        proof = proof_of(migration, comparisons)
+        return Proved(migration.main, migration.files, comparisons, diagnostics, proof, figures, migration.names)
 
     def _faults_of(self, comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
         yield from faults_of(comparisons, self.deadline.seconds)

@@ -29,8 +29,27 @@ from linkforge_compile.migration.without_effect import PLACES
 _MOST_DIFFERENCES = 5
 
 
+class Proof(NamedTuple):
+    """For how many combinations of arguments specs are the same robot."""
+
+    varied: tuple[str, ...]
+    """The arguments with several values in the proof."""
+    settled: tuple[str, ...]
+    """The other arguments, of which only one value is compared."""
+    renamed: tuple[tuple[str, str], ...]
+    """The arguments whose parameters have another name, which users give."""
+    combinations: int
+    equal: int
+    unproved: int
+    late: int
+    """The combinations that were not compared, because the time was over."""
+
+    def as_json(self) -> dict[str, Any]:
+        return {**self._asdict(), "renamed": dict(self.renamed)}
+
+
 class Figures(NamedTuple):
-    """The numbers of a migration.
+    """The numbers of a translation.
 
     Of the macros that are called, `parts` have links or joints, so that they can be modules; the others make values.
     `modules` are files, `raw_macros` of them with raw XML, and `in_place` are written where they are called.
@@ -51,24 +70,23 @@ class Figures(NamedTuple):
     lines_before: int
     files_after: int
     lines_after: int
-    varied: tuple[str, ...]
-    """The arguments with several values in the proof."""
-    settled: tuple[str, ...]
-    """The other arguments, of which only one value is compared."""
-    renamed: tuple[tuple[str, str], ...]
-    """The arguments whose parameters have another name, which users give."""
-    combinations: int
-    equal: int
-    unproved: int
-    late: int
-    """The combinations that were not compared, because the time was over."""
-
-    def as_json(self) -> dict[str, Any]:
-        return {**self._asdict(), "renamed": dict(self.renamed)}
 
 
-def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figures:
-    """Return the numbers of a migration and its proof."""
+def proof_of(migration: Migration, comparisons: Sequence[Comparison]) -> Proof:
+    """Return the numbers of a proof."""
+    return Proof(
+        varied=tuple(name for name, values in migration.domains.items() if len(values) > 1),
+        settled=tuple(name for name, values in migration.domains.items() if len(values) <= 1),
+        renamed=tuple(pair for pair in migration.names.items() if pair[0] != pair[1]),
+        combinations=len(comparisons),
+        equal=sum(one.is_equal for one in comparisons),
+        unproved=sum(one.refused is not None for one in comparisons),
+        late=sum(one.is_late for one in comparisons),
+    )
+
+
+def figures_of(migration: Migration) -> Figures:
+    """Return the numbers of a translation."""
     expander = migration.expander
     called = {one.macro.body for one in migration.calls.called}
     modules = migration.modules
@@ -94,28 +112,25 @@ def figures_of(migration: Migration, comparisons: Sequence[Comparison]) -> Figur
         lines_before=sum(text.count("\n") for text in texts),
         files_after=len(migration.files),
         lines_after=sum(text.count("\n") for text in migration.files.values()),
-        varied=tuple(name for name, values in migration.domains.items() if len(values) > 1),
-        settled=tuple(name for name, values in migration.domains.items() if len(values) <= 1),
-        renamed=tuple(pair for pair in migration.names.items() if pair[0] != pair[1]),
-        combinations=len(comparisons),
-        equal=sum(one.is_equal for one in comparisons),
-        unproved=sum(one.refused is not None for one in comparisons),
-        late=sum(one.is_late for one in comparisons),
     )
 
 
-def lines_of(figures: Figures) -> Iterator[str]:
-    """Yield the lines of a report."""
-    combinations = f"{figures.equal} of {_counted(figures.combinations, 'combination')}"
-    unproved = f", {figures.unproved} cannot be compared" if figures.unproved else ""
-    late = f", {figures.late} were not compared in the time" if figures.late else ""
+def proof_lines(proof: Proof) -> Iterator[str]:
+    """Yield the lines of a report about a proof."""
+    combinations = f"{proof.equal} of {_counted(proof.combinations, 'combination')}"
+    unproved = f", {proof.unproved} cannot be compared" if proof.unproved else ""
+    late = f", {proof.late} were not compared in the time" if proof.late else ""
     yield f"proof       the same robot for {combinations} of its arguments{unproved}{late}"
-    if figures.varied or figures.settled:
-        one_value = f"; with one value: {', '.join(figures.settled)}" if figures.settled else ""
-        yield f"arguments   varied: {', '.join(figures.varied) or 'none'}{one_value}"
-    if figures.renamed:
-        names = ", ".join(f"{name} is {new}" for name, new in figures.renamed)
+    if proof.varied or proof.settled:
+        one_value = f"; with one value: {', '.join(proof.settled)}" if proof.settled else ""
+        yield f"arguments   varied: {', '.join(proof.varied) or 'none'}{one_value}"
+    if proof.renamed:
+        names = ", ".join(f"{name} is {new}" for name, new in proof.renamed)
         yield f"renamed     {names}: launch files give the new names"
+
+
+def figure_lines(figures: Figures) -> Iterator[str]:
+    """Yield the lines of a report about a translation."""
     kept = f", {figures.kept} remain in xacro" if figures.kept else ""
     macros = f"{_counted(figures.modules, 'module')}, {figures.in_place} written in place{kept}"
     yield f"macros      {figures.macros}: {macros}"

@@ -38,7 +38,10 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     write(tmp_path, robot=ROBOT)
     assert linkforge("migrate", "robot.xacro", "-o", "specs", cwd=tmp_path).returncode == 0
     verify = ("migrate", "robot.xacro", "-o", "specs", "--verify")
-    assert linkforge(*verify, cwd=tmp_path).returncode == 0
+    equal = linkforge(*verify, cwd=tmp_path)
+    assert equal.returncode == 0
+    assert [line.split()[0] for line in equal.stdout.splitlines()] == ["proof", "arguments"]
+    assert '"lines_after"' not in linkforge(*verify, "--json", cwd=tmp_path).stdout
     spec = tmp_path / "specs/robot.robot.yaml"
     spec.write_text(spec.read_text("utf-8").replace("mu1: 0.5", "mu1: 0.6"), "utf-8")
     ran = linkforge(*verify, cwd=tmp_path)

@@ -118,14 +118,17 @@ def _split(word: str) -> tuple[str, str]:
 
 def _print(proved: Proved, arguments: argparse.Namespace) -> None:
     from linkforge_compile.cli.output import json_text, write_to_stdout
-    from linkforge_compile.migration.report import lines_of
+    from linkforge_compile.migration.report import figure_lines, proof_lines
 
+    proof, figures = proved.proof, proved.figures
     if arguments.json:
-        document = {"version": 1, "same": proved.is_equal, "files": list(proved.files)}
-        document |= proved.figures.as_json() if proved.figures else {}
+        document: dict[str, object] = {"version": 1, "same": proved.is_equal}
+        document |= {} if arguments.verify else {"files": list(proved.files)}
+        document |= (figures._asdict() if figures else {}) | (proof.as_json() if proof else {})
         write_to_stdout(json_text(document))
-    elif proved.figures is not None:
-        write_to_stdout("".join(f"{line}\n" for line in lines_of(proved.figures)))
+        return
+    lines = [*(proof_lines(proof) if proof else ()), *(figure_lines(figures) if figures else ())]
+    write_to_stdout("".join(f"{line}\n" for line in lines))
 
 
 def _write(proved: Proved, folder: Path, arguments: argparse.Namespace) -> None:
