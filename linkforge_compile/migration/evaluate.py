@@ -152,6 +152,7 @@ class Evaluator(ABC):
         return self.resolved(found[0], name, found[1], context)
 
     def resolved(self, table: Table[Property], name: str, entry: Property, context: Context) -> ast.expr:
+        self.deadline.check()
         if isinstance(entry, Value):
             return entry.node
         if isinstance(entry, Block):

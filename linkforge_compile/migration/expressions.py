@@ -18,6 +18,7 @@ from linkforge_compile.migration.symbols import (
     NotConstantError,
     Parts,
     Reference,
+    TooLargeError,
     UndefinedError,
     as_expression,
     as_parts,
@@ -82,10 +83,18 @@ def translate_expression(text: str, names: Names) -> ast.expr:
     source = _EXTENSION.sub(mark, text).strip()
     try:
         tree = ast.parse(f"({source})", mode="eval").body
+        return _translated(tree, names, extensions, text)
     except SyntaxError:
         raise CannotTranslateError(f"'${{{text}}}' is not an expression") from None
+    except RecursionError:
+        raise TooLargeError("an expression that is nested too deeply") from None
+
+
+def _translated(tree: ast.expr, names: Names, extensions: list[Parts], text: str) -> ast.expr:
     try:
         return folded(_Translator(names, extensions, text).visit(tree))
+    except TooLargeError:
+        raise
     except CannotTranslateError:
         known = computed(tree, names, extensions)
         if known is None:

@@ -33,7 +33,7 @@ _OPERATORS: Mapping[type[ast.AST], Callable[..., Any]] = {
 }
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan2", "floor", "ceil")},
-    **{"radians": math.radians, "degrees": math.degrees, "min": min, "max": max, "abs": abs, "round": round},
+    **{"radians": math.radians, "degrees": math.degrees, "min": min, "max": max, "abs": abs},
     **{"len": len, "int": int, "float": float, "str": str},
 }
 _MOST_BASE = 1e12
@@ -43,10 +43,10 @@ _MOST_BITS = 4096
 """The longest whole numbers together that are computed with."""
 
 _MOST_CHARACTERS = 100_000
-"""The longest text or list that is made."""
+"""The size of all texts and lists together that one expression makes: characters and items."""
 
-_WIDTH = re.compile(r"%[^a-zA-Z%]*(?:\d{4}|\*)")
-"""A `%` that makes a text as long as a number in it says."""
+_WIDTH = re.compile(r"%(?:\(|[^a-zA-Z%]*(?:\d{4}|\*))")
+"""A `%` that makes a text as long as a number in it says; one with the name of a value may hide such a number."""
 
 
 _METHODS = frozenset(
@@ -57,6 +57,8 @@ _METHODS = frozenset(
 )
 _MOST_STEPS = 20_000
 _MOST_ITEMS = 10_000
+_MOST_DIGITS = 400
+"""The most digits that a number is rounded to; a double has fewer."""
 
 
 def _range(*bounds: int) -> list[int]:
@@ -66,9 +68,16 @@ def _range(*bounds: int) -> list[int]:
     return list(found)
 
 
+def _round(number: float, digits: int | None = None) -> float:
+    if digits is not None and abs(digits) > _MOST_DIGITS:
+        raise UnknownValueError
+    return round(number, digits)
+
+
 _CALLED: Mapping[str, Callable[..., Any]] = {
     **_FUNCTIONS,
     "range": _range,
+    "round": _round,
     **{one.__name__: one for one in (list, dict, tuple, sorted, sum, any, all, bool, set)},
     **{one.__name__: lambda *items, one=one: list(one(*items)) for one in (zip, enumerate, reversed)},
     "dotify": dict,
@@ -98,6 +107,7 @@ class PythonValues:
     def __init__(self, lookup: Callable[[ast.Name], Any]) -> None:
         self._lookup = lookup
         self._steps = 0
+        self._left = _MOST_CHARACTERS
 
     def value(self, tree: ast.expr) -> Any:
         """Return the value of an expression.
@@ -108,7 +118,7 @@ class PythonValues:
         """
         try:
             return self._value(tree, {})
-        except (ArithmeticError, TypeError, ValueError, LookupError, AttributeError, MemoryError):
+        except (ArithmeticError, TypeError, ValueError, LookupError, AttributeError, MemoryError, RecursionError):
             raise UnknownValueError from None
 
     def _value(self, node: ast.expr, local: Mapping[str, Any]) -> Any:
@@ -116,10 +126,34 @@ class PythonValues:
         if self._steps > _MOST_STEPS:
             raise UnknownValueError
         match node:
-            case ast.Constant(value=value):
+            case ast.Constant(value=value) if not isinstance(value, bytes):
                 return value
             case ast.Name(id=name):
                 return local[name] if name in local else self._lookup(node)
+            case ast.Subscript() | ast.Attribute():
+                return self._part(node, local)
+        made = self._made(node, local)
+        self._spend(made)
+        return made
+
+    def _spend(self, value: Any) -> None:
+        """Count the size of a value that was made; an item that is in it twice counts twice, as in its text."""
+        waiting = [value]
+        while waiting:
+            each = waiting.pop()
+            match each:
+                case int() if each.bit_length() > _MOST_BITS:
+                    raise UnknownValueError
+                case str():
+                    self._left -= len(each)
+                case list() | tuple() | set() | dict():
+                    self._left -= len(each)
+                    waiting += (*each, *each.values()) if isinstance(each, dict) else each
+            if self._left < 0:
+                raise UnknownValueError
+
+    def _made(self, node: ast.expr, local: Mapping[str, Any]) -> Any:
+        match node:
             case ast.List(elts=items):
                 return self._values(items, local)
             case ast.Tuple(elts=items):
@@ -129,8 +163,6 @@ class PythonValues:
                 return dict(zip(self._values(present, local), self._values(values, local), strict=True))
             case ast.ListComp(elt=item, generators=generators) | ast.GeneratorExp(elt=item, generators=generators):
                 return [self._value(item, one) for one in self._rounds(generators, local)]
-            case ast.Subscript() | ast.Attribute():
-                return self._part(node, local)
             case ast.Call(func=ast.Name(id="isinstance") | ast.Attribute(attr="isinstance"), args=[value, kind]):
                 return isinstance(self._value(value, local), _kinds(kind))
             case ast.Call(func=ast.Name(id="dict"), args=[], keywords=keywords) if keywords:
@@ -207,13 +239,21 @@ class PythonValues:
                 owner = self._value(whole, local)
                 if type(owner) not in (str, list, dict, tuple):
                     raise UnknownValueError
-                # What is joined, or put in place of each character.
-                texts = [text for one in arguments for text in (one if isinstance(one, list) else [one])]
-                if len(owner) * sum(len(text) for text in texts if isinstance(text, str)) > _MOST_CHARACTERS:
+                if _longest(owner, name, arguments) > _MOST_CHARACTERS:
                     raise UnknownValueError
                 found = getattr(owner, name)(*arguments)
                 return list(found) if name in ("keys", "values", "items") else found
         raise UnknownValueError
+
+
+def _longest(owner: Any, method: str, arguments: list[Any]) -> int:
+    """Return how long a text can be that a method makes of several others, before it is made."""
+    match method, arguments:
+        case "join", [texts]:
+            return sum(len(owner) + len(text) for text in texts)
+        case "replace", [_, new, *_]:
+            return len(owner) + (len(owner) + 1) * len(new)
+    return 0
 
 
 def _calculate(operation: ast.operator, left: Any, right: Any) -> Any:

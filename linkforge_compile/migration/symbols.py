@@ -15,6 +15,7 @@ Part: TypeAlias = "str | ast.expr"
 Parts: TypeAlias = tuple[Part, ...]
 """A text: its literal pieces, and the expressions between them. A single expression keeps its type."""
 
+_MOST_CHARACTERS = 100_000
 NUMBER, BOOLEAN, TEXT, VECTOR, MAP, LIST, UNKNOWN = "number", "boolean", "text", "vector", "map", "list", "unknown"
 
 
@@ -41,6 +42,10 @@ class CannotTranslateError(Exception):
 
 class UndefinedError(CannotTranslateError):
     """A macro is called that is not defined, or a file included that does not exist."""
+
+
+class TooLargeError(CannotTranslateError):
+    """A text or an expression is larger than any robot needs; no other way to compute it is tried."""
 
 
 class MissingFileError(UndefinedError):
@@ -214,7 +219,6 @@ def read_literal(text: str) -> object:
 _RESULTS = {**dict.fromkeys(("str", "join", "path"), TEXT), "split": VECTOR}
 """What functions give that give no number."""
 
-
 _KINDS: dict[type, str] = {bool: BOOLEAN, int: NUMBER, float: NUMBER, str: TEXT, dict: MAP}
 
 
@@ -300,7 +304,7 @@ def as_parts(node: ast.expr) -> Parts:
 
 
 def joined(*texts: Parts) -> Parts:
-    """Return texts as one, with neighbouring literal pieces as one piece."""
+    """Return texts as one, with neighbouring literal pieces as one piece; properties may double it again and again."""
     parts: list[Part] = []
     for text in texts:
         for part in text:
@@ -308,6 +312,8 @@ def joined(*texts: Parts) -> Parts:
                 parts[-1] += part
             elif part != "":
                 parts.append(part)
+    if sum(len(part) if isinstance(part, str) else 1 for part in parts) > _MOST_CHARACTERS:
+        raise TooLargeError(f"a text of more than {_MOST_CHARACTERS} characters")
     return tuple(parts)
 
 

@@ -33,6 +33,17 @@ HUGE = [
     "number * number",
     "[i for i in range(10 ** 9)]",
     "[i for i in range(9999) for j in range(9999)]",
+    "[range(9999) for i in range(6000)]",
+    "sum([[0] * 9999] * 9999, [])",
+    "str([[[0] * 9999] * 9999] * 9999)",
+    "b'a' * 10 ** 9",
+    "'%(a)999999999d' % {'a': 1}",
+    "round(5, -10 ** 9)",
+    "long.join(['', ''])",
+    "long.join(('', ''))",
+    "''.join([''.join(['a' * 9999] * 9)] * 9999)",
+    "int('f' * 9999, 16)",
+    "-" * 2000 + "1",
 ]
 VALUES = {"long": "a" * 60_000, "number": 1 << 3000}
 
@@ -55,6 +66,8 @@ def test_what_is_huge_is_not_computed(text: str):
         ("sum([i * 2 for i in range(4)])", 12),
         ("'link'.replace('l', 'L') + '_1'", "Link_1"),
         ("2 ** 10 * 3", 3072),
+        ("round(2.5) + round(0.126, 2)", 2.13),
+        ("[name for name in [[i, i] for i in range(1000)]][999]", [999, 999]),
     ],
 )
 def test_what_robots_use_is_computed(text: str, value: object):
@@ -155,6 +168,19 @@ def test_macros_that_call_themselves_twice_are_not_expanded_without_end(
         tmp_path, robot=f'<xacro:macro name="m" params="n">{twice}</xacro:macro><xacro:m n="50"/><link name="a"/>'
     )
     with pytest.raises(CannotTranslateError, match="more than 500 elements"):
+        _expand(main)
+
+
+def test_texts_that_double_with_each_property_are_not_written_out(tmp_path: Path):
+    doubles = "".join(f'<xacro:property name="p{n + 1}" value="${{p{n}}}${{p{n}}}"/>' for n in range(50))
+    main = write(tmp_path, robot=f'<xacro:property name="p0" value="ab"/>{doubles}<link name="${{p50}}"/>')
+    with pytest.raises(CannotTranslateError, match="more than 100000 characters"):
+        _expand(main)
+
+
+def test_an_expression_that_is_nested_too_deeply_is_told(tmp_path: Path):
+    main = write(tmp_path, robot=f'<link name="base"/><link name="l${{{"1+" * 9999}1}}"/>')
+    with pytest.raises(CannotTranslateError, match="nested too deeply"):
         _expand(main)
 
 
