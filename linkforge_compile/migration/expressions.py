@@ -10,6 +10,7 @@ from linkforge_compile.migration.computed import MARK, MATH, Names, computed
 from linkforge_compile.migration.constants import constant_of
 from linkforge_compile.migration.logic import as_condition, combined, compared, folded, negated
 from linkforge_compile.migration.symbols import (
+    MAP,
     NUMBER,
     TEXT,
     UNKNOWN,
@@ -300,6 +301,8 @@ _COMPARISONS: Mapping[type[ast.cmpop], type[ast.cmpop]] = {
 def _item(whole: ast.expr, index: ast.expr) -> ast.expr:
     node: ast.expr = ast.Subscript(value=whole, slice=index, ctx=ast.Load())
     key = literal_of(index)
+    if isinstance(key, str) and isinstance(whole, Reference) and whole.symbol.kind == UNKNOWN:
+        whole.symbol.kind = MAP
     if isinstance(key, str) and key.isidentifier() and key not in _KEYWORDS:
         node = ast.Attribute(value=whole, attr=key, ctx=ast.Load())
     return node

@@ -196,6 +196,33 @@ def test_a_map_is_given_to_a_module_as_one_and_radians_of_a_velocity_are_no_angl
     assert "velocity: $(limits[base_name].speed * pi / 180)" in part
 
 
+def test_a_parameter_of_which_keys_are_read_is_a_map(tmp_path: Path):
+    package = tmp_path / "cart_description"
+    package.mkdir()
+    (package / "wheels.yaml").write_text("front: {radius: 0.2}\n", "utf-8")
+    text = """
+<xacro:arg name="wheels" default="None"/>
+<xacro:macro name="wheel" params="name wheel">
+  <link name="${name}"><visual><geometry><sphere radius="${wheel['radius']}"/></geometry></visual></link>
+  <joint name="${name}_joint" type="fixed"><parent link="base"/><child link="${name}"/></joint>
+</xacro:macro>
+<xacro:macro name="cart" params="file">
+  <xacro:if value="${file == 'None'}">
+    <xacro:property name="path" value="$(find cart_description)/wheels.yaml"/>
+  </xacro:if>
+  <xacro:unless value="${file == 'None'}"><xacro:property name="path" value="${file}"/></xacro:unless>
+  <xacro:property name="wheels" value="${load_yaml(path)}"/>
+  <link name="base"/>
+  <xacro:wheel name="left" wheel="${wheels['front']}"/>
+  <xacro:wheel name="right" wheel="${wheels['front']}"/>
+</xacro:macro>
+<xacro:cart file="$(arg wheels)"/>
+"""
+    made = migrated(tmp_path, text, packages={"cart_description": package})
+    assert "  wheel: {type: map}\n" in made.files["wheel.robot.yaml"]
+    assert "sphere: $(wheel.radius)" in made.files["wheel.robot.yaml"]
+
+
 def test_a_variable_that_is_a_velocity_is_no_angle(tmp_path: Path):
     text = """
 <xacro:arg name="speed" default="90"/>
