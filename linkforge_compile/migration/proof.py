@@ -14,7 +14,7 @@ from linkforge_compile.diagnostics import Diagnostic, Severity
 from linkforge_compile.diagnostics.codes.modules import OUTSIDE_ROOTS
 from linkforge_compile.importing import as_read_back, import_urdf
 from linkforge_compile.load import Loader
-from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
+from linkforge_compile.migration.combinations import Arguments
 from linkforge_compile.migration.deadline import Deadline
 from linkforge_compile.migration.plain_paths import with_plain_paths
 from linkforge_compile.migration.without_effect import leave_out
@@ -77,7 +77,7 @@ class Prover:
             self._deadline.tell(f"compared {number} of {len(combinations)} combinations of arguments")
             late = Comparison(arguments, is_late=True)
             compared.append(late if self._deadline.is_over else self._compared(specs, arguments))
-        return [one for one in compared if not (one.refused and OTHER_WORD in one.arguments.values())]
+        return compared
 
     def faults_of_xacro(self, arguments: Arguments) -> tuple[Diagnostic, ...]:
         """Return the errors in the robot that xacro expands."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
-from linkforge_compile.diagnostics import Diagnostic, Note
+from linkforge_compile.diagnostics import Diagnostic, Note, Severity
 from linkforge_compile.diagnostics.codes.importing import (
     ARGUMENT_PINNED,
     ELEMENT_LEFT_OUT,
@@ -20,7 +21,7 @@ from linkforge_compile.diagnostics.codes.importing import (
 )
 from linkforge_compile.importers.element_reader import text_left_out
 from linkforge_compile.migration.attachment import parts_of
-from linkforge_compile.migration.combinations import Arguments
+from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
 from linkforge_compile.migration.evaluate import Called
 from linkforge_compile.migration.migrate import Migration
 from linkforge_compile.migration.proof import Comparison
@@ -192,7 +193,10 @@ def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Dia
         for text in (one.fault,) if one.fault else one.differences[:_MOST_DIFFERENCES]:
             differences.setdefault(text, []).append(one.arguments)
     for reason, combinations in refused.items():
-        yield MIGRATION_UNPROVED.at(None, arguments=_all_words(combinations), reason=reason)
+        found = MIGRATION_UNPROVED.at(None, arguments=_all_words(combinations), reason=reason)
+        # That a xacro refuses the word that migrate made up is no fault of the xacro.
+        is_made_up = all(OTHER_WORD in one.values() for one in combinations)
+        yield replace(found, severity_override=Severity.NOTE) if is_made_up else found
     for text, combinations in differences.items():
         notes = [Note("this is a change from the robot of xacro to that of the specs")] if " → " in text else []
         yield MIGRATION_DIFFERS.at(None, arguments=_all_words(combinations), text=text, notes=notes)

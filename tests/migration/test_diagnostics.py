@@ -231,6 +231,21 @@ def test_one_reason_is_told_once_for_all_combinations(tmp_path: Path):
     assert "with broken:=true and 1 other combination, nothing is compared" in ran.stderr
 
 
+def test_the_other_word_that_a_xacro_refuses_is_counted(tmp_path: Path):
+    write(
+        tmp_path,
+        robot="""<xacro:arg name="kind" default="small"/>
+<xacro:if value="${'$(arg kind)' == 'small'}"><xacro:property name="size" value="1"/></xacro:if>
+<xacro:if value="${'$(arg kind)' == 'large'}"><xacro:property name="size" value="2"/></xacro:if>
+<link name="base"><collision><geometry><sphere radius="${size}"/></geometry></collision></link>""",
+    )
+    for options in ((), ("--verify",)):
+        ran = linkforge("migrate", "robot.xacro", *options, cwd=tmp_path)
+        assert ran.returncode == 0
+        assert "the same robot for 2 of 3 combinations of its arguments, 1 cannot be compared\n" in ran.stdout
+        assert "note: with kind:=none_of_these, nothing is compared" in ran.stderr  # LF8044
+
+
 def _another_robot(_specs: object, arguments: dict[str, str]) -> Comparison:
     return Comparison(arguments, differences=("links/base: removed",))
 
