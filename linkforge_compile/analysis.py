@@ -189,7 +189,7 @@ def expand_and_lower(
     from linkforge_compile.core.resolver import FileSystemResolver
 
     arguments = settings.arguments(loader, sink)
-    cache = settings.cache.for_compile(settings.variant, loader, sink) if settings.cache else None
+    cache = settings.cache.of_compile(settings.variant, loader, sink) if settings.cache else None
     instance = expand(spec, arguments, loader, sink, unset=settings.unset, variant=settings.variant, cache=cache)
     lowered = lower(instance, sink, meshes, cache)
     # Meshes are looked for in the user's packages, the spec's, then those of its modules.

@@ -67,11 +67,11 @@ class Diagnostics:
     def recording(self) -> Iterator[list[Diagnostic]]:
         """Collect everything that is reported meanwhile, kept or not."""
         recorded: list[Diagnostic] = []
-        self._recorded = recorded
+        around, self._recorded = self._recorded, recorded
         try:
             yield recorded
         finally:
-            self._recorded = None
+            self._recorded = around
 
     def report(self, diagnostic: Diagnostic) -> None:
         """Keep a diagnostic, or only count it if there are many; BeyondLimitError if there are too many."""

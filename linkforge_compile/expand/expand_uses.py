@@ -115,7 +115,7 @@ class _Expander:
         cache = self._state.cache
         varied = cache.varied_in(outer.spec, outer.varied, entry.ref.key) if cache else None
         make = partial(self._expand_module, entry, outer, scope, varied)
-        if cache is None or varied is None or varied:
+        if cache is None or varied != frozenset():
             return make()
         use = (entry.ref.span, entry.name, entry.repetition, *outer.place_in_robot)
         instance = cache.expanded(use, entry.ref.span, make)

@@ -34,7 +34,7 @@ class ModuleEntry:
 
     `arguments` are those of `with`. If `is_named` is false, the name or the prefix is faulty, so that the final names
     in the module are unknown. `overrides` apply in order. `shared_link` is as for `Instance`.
-    `repetition` has the values of its `for`, whose copies may have the same name.
+    `repetition` has the values of its `for` as text, which tell copies of one name apart.
     """
 
     name: str

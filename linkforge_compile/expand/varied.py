@@ -13,7 +13,7 @@ from linkforge_compile.syntax.nodes import leaves_in
 Varied: TypeAlias = frozenset[str] | None
 """The parameters of a use of a file whose values may differ from compile to compile; None if more of it may."""
 
-_PLACING = ("parent", "origin", "joint", "when", "for")
+_PLACING = ("parent", "origin", "joint", "when")
 """The keys of a module that decide whether it is there and where it is attached, not what is in it."""
 
 
@@ -49,11 +49,8 @@ def _varied_in_module(module: YamlEntry, varied: frozenset[str]) -> Varied:
     fields = module.value
     if not isinstance(fields, YamlMap):
         return None if _names_in(fields) & varied else frozenset()
-    for name in fields.section("for").values():
-        if _names_in(name.value) & varied:
-            varied |= {name.name}
-    # A macro may use its place in any way.
-    inside = fields.without("with", *(("when", "for") if "macro" in fields.entries else _PLACING))
+    # A macro may use its place in any way. The key has all names of a `for`, so it varies with their values.
+    inside = fields.without("with", *(("when",) if "macro" in fields.entries else _PLACING))
     if (_names_in(module.key) | _names_in(inside)) & varied:
         return None
     return _varied_arguments(fields.get("with"), varied)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -30,11 +29,9 @@ class FilesRead:
     unread_meshes: list[Path] = field(default_factory=list)
 
     @property
-    def paths(self) -> Iterator[Path]:
-        """All files that were read."""
-        yield from (source.path for source in self.sources if source.path)
-        yield from self.by_xacro
-        yield from self.meshes
+    def names(self) -> tuple[object, ...]:
+        """What was read as what: two compiles with the same names have read the same."""
+        return (*self.sources, *self.specs, None, *self.data, None, *self.xml, frozenset(self.meshes))
 
     def copy(self) -> FilesRead:
         return FilesRead(*(getattr(self, each.name).copy() for each in fields(self)))

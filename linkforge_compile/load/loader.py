@@ -120,9 +120,10 @@ class Loader:
         return tuple(dict.fromkeys(self.files_read.unread))
 
     @property
-    def named_files(self) -> frozenset[Path]:
-        """The files that the user names, in values too, as far as they exist: most values only look like a name."""
-        return frozenset(filter(exists, self.roots.files))
+    def named_files_outside(self) -> frozenset[Path]:
+        """The files that may be read only because the user names them, in values too, of which most name nothing."""
+        inside = replace(self.roots, files=frozenset())
+        return frozenset(path for path in self.roots.files if exists(path) and not inside.hold(path))
 
     @property
     def suppressions(self) -> tuple[Suppression, ...]:

@@ -123,7 +123,7 @@ def compile_point(
     """Compile the spec at a point."""
     spec, settings = tree.place(request.spec) if tree else request.spec, request.settings(point, tree)
     compilation = analyse_path(spec, settings._replace(cache=cache)).compilation
-    # With the cache, a compile may exceed a limit within which it is alone.
+    # What exceeds a limit with the cache may be within it alone; other errors are the same.
     return analyse_path(spec, settings).compilation if cache and compilation.has_errors else compilation
 
 
