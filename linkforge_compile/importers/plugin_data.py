@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
+from itertools import groupby
 from typing import NamedTuple
 
 from linkforge_compile.core.fields import Number, Spec, field_specs
 from linkforge_compile.core.models.gazebo import ELEMENT_TAGS, GazeboElement
+from linkforge_compile.diagnostics import Diagnostic
+from linkforge_compile.diagnostics.codes.importing import TAGS_GROUPED
 from linkforge_compile.importers.element_reader import ElementReader
 from linkforge_compile.importers.raw_xml import is_name, is_name_as_text, known_tag, with_prefix
 from linkforge_compile.importers.spec_draft import CannotRepresentError, number_of
@@ -78,7 +81,16 @@ def _by_tag(owner: ElementReader) -> Mapping[str, list[XmlElement]]:
     groups: defaultdict[str, list[XmlElement]] = defaultdict(list)
     for child in owner.remaining():
         groups[child.tag].append(child)
+    if found := tags_grouped(owner.element, owner.remaining()):
+        owner.draft.diagnostics.append(found)
     return groups
+
+
+def tags_grouped(element: XmlElement, children: Iterable[XmlElement]) -> Diagnostic | None:
+    """Return the note that children are grouped by tag; None if their order stays the same."""
+    runs = Counter(tag for tag, _ in groupby(child.tag for child in children))
+    repeated = [tag for tag, count in runs.items() if count > 1]
+    return TAGS_GROUPED.at(element.span, tag=element.tag, repeated=">, <".join(repeated)) if repeated else None
 
 
 def _one_or_list(owner: ElementReader, group: list[XmlElement], known: str | None) -> YamlNode | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from linkforge_compile.diagnostics import Diagnostics
-from linkforge_compile.diagnostics.codes.importing import TEXT_LEFT_OUT
+from linkforge_compile.diagnostics.codes.importing import TAGS_GROUPED, TEXT_LEFT_OUT
 from linkforge_compile.importers.document import Imported
 from linkforge_compile.importers.link import are_shapes_of
 from linkforge_compile.importers.urdf import read_urdf
@@ -73,7 +73,7 @@ class FileMaker:
         self._endings: dict[YamlNode, str] = {}
         self._extra: list[YamlNode] = []
         """Raw XML of the robot."""
-        self._lost_texts: set[str] = set()
+        self._notes: set[str] = set()
 
     def spec(self, head: str) -> Spec:
         """Return the spec of the file; `head` is the comment that begins it.
@@ -106,8 +106,8 @@ class FileMaker:
         made = self._assemble({**tree, **of_uses, **rest}, read[0].tree, where)
         raw = tuple(raw_in(made.without("parameters", "variables")))
         left_out, used = tuple(self._writer.left_out), dict(self._values.used)
-        texts = frozenset(self._lost_texts)
-        return Spec(head, made, self._names, used, raw, left_out, texts, self._comments, self._endings)
+        notes = frozenset(self._notes)
+        return Spec(head, made, self._names, used, raw, left_out, notes, self._comments, self._endings)
 
     def _read(self, text: str, outside: frozenset[str]) -> Imported:
         sink = Diagnostics()
@@ -115,7 +115,7 @@ class FileMaker:
         imported = read_urdf(file, sink, keeps_refused=True, outside=outside)
         if imported is None:
             raise CannotTranslateError(f"a robot that is not read: {sink.sorted()[0].message}")
-        self._lost_texts |= {one.message for one in sink.sorted() if one.code is TEXT_LEFT_OUT}
+        self._notes |= {one.message for one in sink.sorted() if one.code in (TEXT_LEFT_OUT, TAGS_GROUPED)}
         return imported
 
     # Groups

@@ -20,6 +20,7 @@ from linkforge_compile.diagnostics.codes.importing import (
     MIGRATION_UNPROVED,
 )
 from linkforge_compile.importers.element_reader import text_left_out
+from linkforge_compile.importers.plugin_data import tags_grouped
 from linkforge_compile.migration.attachment import parts_of
 from linkforge_compile.migration.combinations import OTHER_WORD, Arguments
 from linkforge_compile.migration.evaluate import Called
@@ -163,8 +164,9 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
     for element in dict.fromkeys(left_out):
         yield ELEMENT_LEFT_OUT.at(element.span, tag=element.tag, place=PLACES.get(element.tag, "a joint of this type"))
     elements = [one for document in migration.expander.sources.documents.values() for one in document.root.walk()]
-    lost_texts = frozenset().union(*(spec.lost_texts for spec in migration.specs.values()))
-    yield from (found for one in elements if one.text and (found := text_left_out(one)).message in lost_texts)
+    messages = frozenset().union(*(spec.notes for spec in migration.specs.values()))
+    about = (found for one in elements for found in (text_left_out(one), tags_grouped(one, one.children)) if found)
+    yield from (found for found in about if found.message in messages)
     for name in sorted(migration.constraints.pinned):
         symbol = migration.expander.arguments[name]
         value = str(symbol.constant)

@@ -156,7 +156,8 @@ def split(content: list[Content], origins: Collection[XmlElement]) -> tuple[list
 class Spec:
     """The comment that begins a spec, its tree, the symbols that it declares by their names, and the tags of raw XML.
 
-    `left_out` are elements of the xacro that have no effect, `lost_texts` the warnings of texts that are omitted.
+    `left_out` are elements of the xacro that have no effect, `notes` the messages about texts that are omitted and
+    elements that are grouped by tag.
     """
 
     head: str
@@ -165,7 +166,7 @@ class Spec:
     used: Mapping[Symbol, None]
     raw: tuple[str, ...] = field(default=())
     left_out: tuple[Element, ...] = ()
-    lost_texts: frozenset[str] = frozenset()
+    notes: frozenset[str] = frozenset()
     comments: Mapping[YamlNode, str] = field(default_factory=dict)
     endings: Mapping[YamlNode, str] = field(default_factory=dict)
 

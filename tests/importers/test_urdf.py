@@ -413,7 +413,7 @@ def test_gazebo_blocks_follow_their_links_and_joints(read):
       <gazebo reference="a"><mu1>0.20</mu1><mu2>2e-1</mu2><material>Gazebo/Red</material>
         <sensor name="eye" type="camera"/>
         <plugin name="p" filename="p.so"><ros><namespace>/x</namespace></ros><j>a</j><j>b</j></plugin></gazebo>
-      <gazebo reference="a"><plugin name="p" filename="p.so"><x/><y/><x>1</x></plugin></gazebo>
+      <gazebo reference="a"><plugin name="p" filename="p.so"><x/><x>1</x><y/></plugin></gazebo>
       <gazebo reference="a"/>""")
     assert text == spec("""
         links:

@@ -80,6 +80,15 @@ def test_the_material_of_a_collision_and_a_gazebo_block_in_a_link_are_left_out(t
     ]
 
 
+def test_elements_of_a_plugin_that_get_another_order_are_noted_at_the_plugin(tmp_path: Path):
+    text = """<link name="base"/>
+<gazebo><plugin name="p" filename="p.so"><a>1</a><b/><a>2</a></plugin></gazebo>
+<gazebo><plugin name="q" filename="q.so"><a>1</a><a>2</a><b/></plugin></gazebo>"""
+    [note] = [one for one in migrated(tmp_path, text).proved.diagnostics if one.code.id == "LF8026"]
+    assert note.span is not None
+    assert note.span.line == 3
+
+
 def test_text_that_no_reader_uses_is_omitted_with_a_warning_at_its_element(tmp_path: Path):
     text = """<link name="base"/>
 <xacro:macro name="wheel" params="name">

@@ -157,6 +157,12 @@ MESH_BESIDE_THE_URDF = Code(
 )
 
 # LF813x: additional information, without a loss
+TAGS_GROUPED = Code(
+    "LF8026",
+    _N,
+    "the elements of <{tag}> are grouped by tag in the spec; here, other elements stand between <{repeated}>",
+)
+
 VERSION_FOR_CAPSULE = Code(
     "LF8131",
     _N,
