@@ -32,7 +32,7 @@ class Comparison(NamedTuple):
     """One combination: what differs, and why there is nothing to compare, if so.
 
     `refused` is what is wrong with the xacro for these arguments: then nothing is proved. `fault` is what is wrong with
-    the spec. `is_late` if the time was over before.
+    the spec, and `errors` are those of its compile. `is_late` if the time was over before.
     """
 
     arguments: Arguments
@@ -40,6 +40,7 @@ class Comparison(NamedTuple):
     refused: str | None = None
     fault: str | None = None
     is_late: bool = False
+    errors: tuple[Diagnostic, ...] = ()
 
     @property
     def is_equal(self) -> bool:
@@ -109,7 +110,8 @@ class Prover:
             return Comparison(arguments, refused=_first_error(expected))
         compilation = self._compile(specs, arguments)
         if compilation.robot is None:
-            return Comparison(arguments, fault=_first_error(compilation.diagnostics))
+            errors = _errors_in(compilation.diagnostics)
+            return Comparison(arguments, fault=_first_error(errors), errors=errors)
         robot, faults = as_read_back(compilation.robot)
         if robot is None:
             return Comparison(arguments, fault=_first_error(faults))

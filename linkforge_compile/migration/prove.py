@@ -26,7 +26,15 @@ from linkforge_compile.migration.inertia import computed_inertias
 from linkforge_compile.migration.kept import kept_spec, parameter_names
 from linkforge_compile.migration.migrate import Constraints, Migration, Translator
 from linkforge_compile.migration.proof import Comparison, Prover, Specs
-from linkforge_compile.migration.report import Figures, Proof, faults_of, figures_of, notes_of, proof_of
+from linkforge_compile.migration.report import (
+    Figures,
+    Proof,
+    errors_of_specs,
+    faults_of,
+    figures_of,
+    notes_of,
+    proof_of,
+)
 from linkforge_compile.migration.sources import Sources
 from linkforge_compile.migration.symbols import CannotTranslateError
 from linkforge_compile.pipeline import parameters_of
@@ -203,7 +211,9 @@ class Migrator:
         attempt = _Attempt(migration, self._prover.compare(specs, migration.combinations))
         if faults and not attempt.is_about_robots:
             return self._without_result(faults)
-        return self._proved(attempt, [*gone, *self._faults_of(attempt.comparisons)])
+        errors = errors_of_specs(attempt.comparisons)
+        others = [one for one in attempt.comparisons if not one.errors]
+        return self._proved(attempt, [*gone, *errors, *self._faults_of(others)])
 
     def _parameters_of(self, path: Path) -> tuple[Listing | None, tuple[Diagnostic, ...]]:
         return parameters_of(path, packages=self.loader.packages, allow_outside=self.loader.roots.is_anywhere)

@@ -181,6 +181,18 @@ def notes_of(migration: Migration) -> Iterator[Diagnostic]:
         yield ENVIRONMENT_READ.at(users[-1] if users else None, name=name, value=value)  # the inner element
 
 
+def errors_of_specs(comparisons: Sequence[Comparison]) -> Iterator[Diagnostic]:
+    """Yield the errors of specs, each once, with the arguments for which it is one unless it is for all."""
+    found: dict[Diagnostic, list[Arguments]] = {}
+    for one in comparisons:
+        for error in one.errors:
+            found.setdefault(error, []).append(one.arguments)
+    compiled = sum(not (one.refused or one.is_late) for one in comparisons)
+    for error, combinations in found.items():
+        notes = [] if len(combinations) == compiled else [Note(f"this is with {_all_words(combinations)}")]
+        yield replace(error, notes=(*error.notes, *notes))
+
+
 def faults_of(comparisons: Sequence[Comparison], seconds: float) -> Iterator[Diagnostic]:
     """Yield what differs, and what was not compared, some of it as that would take longer than a time."""
     late = [one.arguments for one in comparisons if one.is_late]

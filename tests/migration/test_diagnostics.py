@@ -51,6 +51,25 @@ def test_verify_finds_what_was_changed(tmp_path: Path):
     assert ran.stderr.endswith("the specs are not equal to the xacro: correct them, or migrate again with --force\n")
 
 
+def test_verify_reports_an_error_of_a_spec_as_check_does(tmp_path: Path):
+    write(tmp_path, robot=ROBOT)
+    assert linkforge("migrate", "robot.xacro", cwd=tmp_path).returncode == 0
+    spec = tmp_path / "robot.robot.yaml"
+    text = spec.read_text("utf-8")
+    spec.write_text(text + "frames: {tool: {parent: bse}}\n", "utf-8")
+    ran = linkforge("migrate", "robot.xacro", "--verify", cwd=tmp_path)
+    assert ran.returncode == 1
+    checked = linkforge("check", "robot.robot.yaml", cwd=tmp_path).stderr
+    error = checked.partition("[LF4102]")[0]
+    assert "LF4102" in checked
+    assert ran.stderr.startswith(error)
+    assert "different robot" not in ran.stderr
+    assert "this is with" not in ran.stderr
+    spec.write_text(text + "frames: {tool: {when: $(long), parent: bse}}\n", "utf-8")
+    ran = linkforge("migrate", "robot.xacro", "--verify", cwd=tmp_path)
+    assert "note: this is with long:=true\n" in ran.stderr
+
+
 @pytest.mark.parametrize("content", [b"mine\n", "café\n".encode("latin-1")])
 def test_other_content_is_replaced_only_by_force(tmp_path: Path, content: bytes):
     write(tmp_path, robot=ROBOT)
