@@ -69,13 +69,16 @@ class Prover:
         """`loader` has the packages, and whether the user allows to read anything."""
         self._main, self._deadline = main, deadline or Deadline()
         self._settings = Settings((), {**loader.packages}, allow_outside=loader.roots.is_anywhere)
+        self._translations = 0
         self._expanded: dict[tuple[tuple[str, str], ...], Robot | tuple[Diagnostic, ...]] = {}
 
     def compare(self, specs: Specs, combinations: Sequence[Arguments]) -> list[Comparison]:
         """Return the comparison of each combination."""
         compared: list[Comparison] = []
+        self._translations += 1
+        phase = f"translation {self._translations}: " if self._translations > 1 else ""
         for number, arguments in enumerate(combinations):
-            self._deadline.tell(f"compared {number} of {len(combinations)} combinations of arguments")
+            self._deadline.tell(f"{phase}compared {number} of {len(combinations)} combinations of arguments")
             late = Comparison(arguments, is_late=True)
             compared.append(late if self._deadline.is_over else self._compared(specs, arguments))
         return compared

@@ -156,7 +156,18 @@ def test_progress_is_printed_when_it_takes_long(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr(reports, "PROGRESS_INTERVAL", 0)
     write(tmp_path, robot='<xacro:arg name="a" default="true"/><link name="base"/>')
     ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
-    assert "compared 1 of 2 combinations of arguments\n" in ran.stderr
+    assert "\ncompared 1 of 2 combinations of arguments\n" in ran.stderr
+    assert "translation 2" not in ran.stderr
+
+
+def test_progress_tells_one_translation_from_the_next(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(reports, "PROGRESS_INTERVAL", 0)
+    inertia = '<inertia ixx="0.4" iyy="0.4" izz="0.4" ixy="0" ixz="0" iyz="0"/>'
+    sphere = '<collision><geometry><sphere radius="1"/></geometry></collision>'
+    write(tmp_path, robot=f'<link name="base">{sphere}<inertial><mass value="1"/>{inertia}</inertial></link>')
+    ran = linkforge("migrate", "robot.xacro", cwd=tmp_path)
+    told = [line for line in ran.stderr.splitlines() if "compared" in line]
+    assert told == [f"{phase}compared 0 of 1 combinations of arguments" for phase in ("", "translation 2: ")]
 
 
 def test_macros_that_call_themselves_twice_are_not_expanded_without_end(
