@@ -225,7 +225,7 @@ def _spell_number(text: str, unit: Dimension | None) -> tuple[str, ScalarValue] 
     digits = text.strip() if _TIDY_NUMBER.fullmatch(text.strip()) else number_text(value)
     if not value:
         digits = digits.removeprefix("-")
-    if unit in _DEGREES and (degrees := _in_degrees(value, _DEGREES[unit])):
+    if unit in _DEGREES and (degrees := in_degrees(value, _DEGREES[unit])):
         return degrees, degrees
     if unit is Dimension.ANGLE and abs(value) > WIDEST_ANGLE:
         return f"{digits} rad", f"{digits} rad"
@@ -241,7 +241,7 @@ def number_of(text: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _in_degrees(value: float, unit: str) -> str | None:
+def in_degrees(value: float, unit: str) -> str | None:
     """Return a round angle in degrees that equals the radians exactly; None where there is none."""
     if not value:
         return None

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from linkforge_compile.migration.computed import MARK, MATH, Names, computed
 from linkforge_compile.migration.constants import constant_of
+from linkforge_compile.migration.formulas import with_formula
 from linkforge_compile.migration.logic import as_condition, combined, compared, folded, negated
 from linkforge_compile.migration.symbols import (
     MAP,
@@ -120,7 +121,7 @@ class _Translator:
             case ast.Name(id=name):
                 return self._name(name)
             case ast.Call():
-                return self._call(node)
+                return with_formula(self._call(node), node, self._names.lookup)
             case ast.Subscript() | ast.Attribute():
                 return self._part(node)
         return self._operation(node)
@@ -130,9 +131,10 @@ class _Translator:
             case ast.UnaryOp(op=ast.Not(), operand=operand):
                 return negated(self._condition(operand))
             case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
-                return folded(ast.UnaryOp(op=sign, operand=self.visit(operand)))
+                value = folded(ast.UnaryOp(op=sign, operand=self.visit(operand)))
+                return with_formula(value, node, self._names.lookup)
             case ast.BinOp():
-                return self._arithmetic(node)
+                return with_formula(self._arithmetic(node), node, self._names.lookup)
             case ast.BoolOp(op=operation, values=values):
                 return combined(operation, [self._condition(value) for value in values])
             case ast.Compare():

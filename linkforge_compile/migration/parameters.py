@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 
 from linkforge_compile.expressions.functions import RESERVED_NAMES
+from linkforge_compile.migration.formulas import Computed
 from linkforge_compile.migration.nodes import map_of, scalar
 from linkforge_compile.migration.symbols import (
     BOOLEAN,
@@ -18,6 +19,7 @@ from linkforge_compile.migration.symbols import (
     Parts,
     Symbol,
     as_parts,
+    constant,
     is_literal,
     is_path,
     joined,
@@ -112,6 +114,7 @@ def _is_pinned(symbol: Symbol) -> bool:
 def _default(symbol: Symbol, parts: Parts, values: Values, where: Span) -> YamlNode:
     """Return a default as its type has it: `1` for a text is the text, `0.5` for a number the number."""
     kind = type_of(symbol)
+    parts = tuple(constant(one.value) if isinstance(one, Computed) else one for one in parts)
     if kind == "file":
         address = joined(*(as_parts(one.args[0]) if isinstance(one, ast.Call) else (one,) for one in parts))
         if _is_relative(parts):

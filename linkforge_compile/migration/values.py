@@ -7,6 +7,7 @@ import copy
 from itertools import chain, count
 
 from linkforge_compile.migration.blocks import stands_for_block
+from linkforge_compile.migration.formulas import Computed
 from linkforge_compile.migration.nodes import data_of
 from linkforge_compile.migration.placeholders import PLACEHOLDER, Placeholders
 from linkforge_compile.migration.symbols import (
@@ -76,7 +77,7 @@ class Values:
     def _scalar(self, parts: Parts, where: Span) -> YamlScalar:
         """Return a number or a text; a word that is a number or boolean is one."""
         literal = literal_of(parts[0]) if len(parts) == 1 and isinstance(parts[0], ast.expr) else UNSET
-        if literal is UNSET:
+        if literal is UNSET or isinstance(parts[0], Computed):
             text = self.text(parts)
             return YamlScalar(text, scalar_value(text) if is_literal(parts) else text, where)
         text = str(literal).lower() if isinstance(literal, bool) else "null" if literal is None else str(literal)
@@ -168,6 +169,9 @@ class _Named(ast.NodeTransformer):
 
     def __init__(self, values: Values) -> None:
         self._values = values
+
+    def visit_Computed(self, node: Computed) -> ast.expr:
+        return copy.deepcopy(node.formula)
 
     def visit_Reference(self, node: Reference) -> ast.expr:
         return ast.Name(id=self._values.name(node.symbol), ctx=ast.Load())

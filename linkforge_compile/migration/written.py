@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 from collections.abc import Iterable, Mapping
 from xml.sax.saxutils import escape, quoteattr
 
@@ -10,6 +11,7 @@ from linkforge_compile.load.macro_roles import DIMENSIONS
 from linkforge_compile.migration.conditions import WORDS, Outcomes, decided, holds
 from linkforge_compile.migration.constants import constant_of, example_of
 from linkforge_compile.migration.dimensions import Placement, without_angles
+from linkforge_compile.migration.formulas import Computed, negative, without_round_angle
 from linkforge_compile.migration.logic import folded
 from linkforge_compile.migration.placeholders import Placeholders, key_of
 from linkforge_compile.migration.symbols import (
@@ -35,7 +37,7 @@ from linkforge_compile.migration.symbols import (
 from linkforge_compile.migration.template import Choice, Comment, Content, Element, Text
 from linkforge_compile.migration.vectors import as_vector, is_data, tokens_of
 from linkforge_compile.migration.without_effect import without_effect
-from linkforge_compile.units import number_text
+from linkforge_compile.units import WIDEST_ANGLE, number_text
 
 _COUNTS = {"xyz": 3, "rpy": 3, "size": 3}
 NUMBERS: Mapping[tuple[str, str], tuple[int, str]] = {
@@ -117,7 +119,11 @@ class Writer:
 
     def _attribute(self, key: tuple[str, str], parts: Parts, outcomes: Outcomes, *, is_plugin: bool) -> str:
         if not is_plugin and key in NUMBERS:
-            return self._numbers(parts if key in _ANGLES else without_angles(parts), *NUMBERS[key])
+            parts = parts if key in _ANGLES else without_angles(parts)
+            if key in _ANGLES or key == ("limit", "velocity"):
+                widest = WIDEST_ANGLE if key in _ANGLES else math.inf
+                parts = tuple(without_round_angle(part, widest) for part in parts)
+            return self._numbers(parts, *NUMBERS[key])
         if key in WORDS:
             return str(constant_of(decided(as_expression(canonical(parts)), outcomes)))
         if key[1] in _NAMES:
@@ -156,6 +162,8 @@ class Writer:
         match token:
             case (ast.expr() as node,):
                 pass
+            case ("-", Computed() as number):
+                node = negative(number)
             case ("-", ast.expr() as inner):
                 node = folded(ast.UnaryOp(op=ast.USub(), operand=inner))
             case ("+", ast.expr() as inner):
@@ -170,6 +178,8 @@ class Writer:
             else:
                 symbol.dimensions.add("number")
         self.placements.append((node, dimension))
+        if isinstance(node, Computed):
+            return self.placeholders.number(node.formula)
         literal = literal_of(node)
         return self.placeholders.number(node) if literal is UNSET else _python_text(literal)
 

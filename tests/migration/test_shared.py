@@ -42,7 +42,7 @@ linkforge: 1
 
 variables:
   # Measured with a load of 20 kg.
-  wheel_radius: 0.1
+  wheel_radius: $(0.2 / 2)
 
 materials:
   rubber: {color: [0, 0, 0]}
