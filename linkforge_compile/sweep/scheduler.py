@@ -24,6 +24,9 @@ from linkforge_compile.sweep.store import Chunk
 from linkforge_compile.sweep.wording import Wording
 from linkforge_compile.sweep.work import Made, Request, make_all
 
+_PATIENCE = 60
+"""How long no worker may be there while chunks wait for one [s]."""
+
 _IN_FLIGHT = 3
 """Chunks that are sent for each process: one is computed, one waits, and one is on its way back."""
 
@@ -65,12 +68,10 @@ class Cluster:
         Only some chunks are sent at a time, so that neither side keeps many robots in memory.
         """
         waiting, sent = iter(chunks), dict[Any, tuple[Chunk, list[Point], Bundle]]()
-        done = distributed().as_completed(loop=self._client.loop)
 
         def send(chunk: Chunk, points: list[Point]) -> None:
             future = self._client.submit(_work, self._job, self._setups, points, pure=False, retries=RETRIES)
             sent[future] = chunk, points, self.bundle
-            done.add(future)
 
         def send_next() -> None:
             if chunk := next(waiting, None):
@@ -78,9 +79,10 @@ class Cluster:
 
         for _ in range(_IN_FLIGHT * max(1, len(self._client.scheduler_info(n_workers=-1)["workers"]))):
             send_next()
-        for future in done:
+        while sent:
+            future = self._next_of(sent)
             chunk, points, bundle = sent.pop(future)
-            made = self._result(future)
+            made = self._result(future, points)
             del future  # or the cluster keeps its result
             if self._lacks_files(made, bundle):
                 send(chunk, points)
@@ -88,16 +90,34 @@ class Cluster:
             send_next()
             yield chunk, made
 
-    def _result(self, future: Any) -> list[Made]:
+    def _next_of(self, futures: Iterable[Any]) -> Any:
+        """Return the next future that is done; SweepError if nothing computes any."""
+        while True:
+            try:
+                with self._client.as_current():
+                    return distributed().wait([*futures], _PATIENCE, "FIRST_COMPLETED").done.pop()
+            except CancelledError as error:
+                raise self._lost() from error
+            except TimeoutError as error:
+                if not self._client.scheduler_info(n_workers=-1)["workers"]:
+                    problem = f"all workers were lost, and none came back within {_PATIENCE} s"
+                    raise SweepError(f"{problem}; {self._words.continuing}") from error
+
+    def _lost(self) -> SweepError:
+        return SweepError(f"the connection to the scheduler was lost; {self._words.continuing}")
+
+    def _result(self, future: Any, points: Sequence[Point]) -> list[Made]:
         from distributed.scheduler import KilledWorker
 
         try:
             result: list[Made] = future.result()
         except KilledWorker as error:
-            lost = error.allowed_failures + 1
-            raise SweepError(f"{lost} workers were lost with the same robots; is there enough memory?") from error
+            lost, first = error.allowed_failures + 1, " ".join(points[0].words)
+            robots = f"the same {len(points)} robots, from '{first}' on" if len(points) > 1 else f"the robot '{first}'"
+            reasons = "does one need too much memory, or does your function end its process?"
+            raise SweepError(f"{lost} workers were lost with {robots}; {reasons}") from error
         except CancelledError as error:
-            raise SweepError(f"the connection to the scheduler was lost; {self._words.continuing}") from error
+            raise self._lost() from error
         except SweepError:
             raise
         except Exception as error:
