@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from tests.migration.migrated import migrated
 
 LINKS = '<link name="base"/><link name="tool"/>'
@@ -78,6 +80,17 @@ def test_the_material_of_a_collision_and_a_gazebo_block_in_a_link_are_left_out(t
         "<material> is omitted: URDF readers ignore it in a collision",
         "<gazebo> is omitted: URDF readers ignore it in a link",
     ]
+
+
+def test_a_color_that_a_visual_takes_from_a_collision_is_a_difference(tmp_path: Path):
+    shape = '<geometry><sphere radius="1"/></geometry>'
+    paint = '<material name="red"><color rgba="1 0 0 1"/></material>'
+    text = f"""<link name="base">
+  <visual>{shape}<material name="red"/></visual>
+  <collision>{shape}{paint}</collision>
+</link>"""
+    with pytest.raises(AssertionError, match="the specs give a different robot: links/base/collision"):
+        migrated(tmp_path, text)
 
 
 def test_elements_of_a_plugin_that_get_another_order_are_noted_at_the_plugin(tmp_path: Path):
