@@ -110,7 +110,7 @@ def run(
     """
     from linkforge_compile.sweep.plan import Choice, plan_of
 
-    _check(pack, seed, jobs=jobs, sample=sample, chunk=chunk, max_points=max_points)
+    _check(pack, function, seed, jobs=jobs, sample=sample, chunk=chunk, max_points=max_points)
     names, table = tuple(variants), None if values is None else Path(values)
     request = _request_of(spec, parameters or {}, names, packages or {}, options or {})
     request = request._replace(formats=tuple(formats), allow_outside=allow_outside, function=function)
@@ -122,9 +122,11 @@ def run(
     return _table_of(plan, packing, output, place, resume=resume)
 
 
-def _check(pack: str, seed: object, **numbers: object) -> None:
+def _check(pack: str, function: Function | None, seed: object, **numbers: object) -> None:
     from linkforge_compile.sweep.store import PACKINGS
 
+    if function is not None and not callable(function):
+        raise SweepError(f"function takes a function of a robot and its values, found {function!r}")
     if pack not in PACKINGS:
         raise SweepError(f"pack takes {', '.join(PACKINGS[:-1])} or {PACKINGS[-1]}, found {pack!r}")
     if not isinstance(seed, int):

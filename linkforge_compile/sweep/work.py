@@ -167,10 +167,23 @@ def _apply(function: Function, robot: Robot, values: Mapping[str, object], row: 
     """Return the columns of a user's function, or its error as a diagnostic."""
     try:
         found = function(robot, values)
-        columns = found if isinstance(found, Mapping) else {} if found is None else {"result": found}
-        return _checked_columns(columns, row)
     except Exception as error:  # the user's own code may raise anything, and the sweep continues
-        return _failed(f"the function raised {type(error).__name__}: {error}", row)
+        return _failed(f"the function raised {type(error).__name__}{_line_of(error)}: {error}", row)
+    try:
+        return _checked_columns(
+            found if isinstance(found, Mapping) else {} if found is None else {"result": found}, row
+        )
+    except (TypeError, ValueError) as error:
+        return _failed(f"what the function returned cannot be kept: {error}", row)
+
+
+def _line_of(error: Exception) -> str:
+    """Return where the function, or what it calls, raised an error; nothing if Python could not call it."""
+    import traceback
+
+    _, *frames = traceback.extract_tb(error.__traceback__)
+    # A function that was sent to another process has no file there.
+    return f" in line {frames[-1].lineno}, in {frames[-1].name}" if frames else ""
 
 
 def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
@@ -184,7 +197,7 @@ def _checked_columns(columns: Mapping[object, object], row: Row) -> Row:
         if not (cell is None or isinstance(cell, bool | int | float | str)):
             raise TypeError(f"column {name!r} takes a number, a boolean or a string, found {type(value).__name__}")
         if isinstance(cell, int) and not -(2**63) <= cell < 2**63:
-            raise OverflowError(f"column {name!r} takes integers of 64 bits, found {cell}")
+            raise ValueError(f"column {name!r} takes integers of 64 bits, found {cell}")
         checked[name] = cell
     return checked
 

@@ -214,7 +214,8 @@ def test_a_function_runs_on_workers(client: Any, tmp_path: Path, monkeypatch: py
     assert there.equals(here)
     assert here["double"].to_pylist() == [1.0, None, 2.0, None]
     assert here["links"].to_pylist() == [4, None, 4, None]
-    assert "the function raised ZeroDivisionError: no third finger" in here["diagnostics"].to_pylist()[1]
+    message = r"the function raised ZeroDivisionError in line \d+, in score: no third finger"
+    assert re.search(message, here["diagnostics"].to_pylist()[1])
 
 
 def test_a_scheduler_that_is_not_there_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -316,7 +316,14 @@ def test_an_error_of_a_function_stands_beside_the_warnings(folder: Path):
     assert (failed["errors"], failed["warnings"]) == (1, without["warnings"])
     *warnings, error = json.loads(failed["diagnostics"])
     assert warnings == json.loads(without["diagnostics"])
-    assert error["message"] == "the function raised KeyError: 'no'"
+    assert re.fullmatch(r"the function raised KeyError in line \d+, in <lambda>: 'no'", error["message"])
+
+
+def test_what_is_no_function_is_an_error(folder: Path):
+    with pytest.raises(SweepError, match="function takes a function of a robot and its values, found 5"):
+        run(folder / "arm.robot.yaml", {"reach": [0.5]}, 5)  # type: ignore[arg-type]
+    failed = run(folder / "arm.robot.yaml", {"reach": [0.5]}, lambda: 1)  # type: ignore[arg-type,misc]
+    assert "the function raised TypeError: " in failed["diagnostics"][0].as_py()
 
 
 @pytest.mark.parametrize("chunk", [1, 4])
