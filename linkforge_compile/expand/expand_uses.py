@@ -117,7 +117,7 @@ class _Expander:
         make = partial(self._expand_module, entry, outer, scope, varied)
         if cache is None or varied != frozenset():
             return make()
-        use = (entry.ref.span, entry.name, entry.repetition, *outer.place_in_robot)
+        use = tuple(each.copy_in_file for each in (entry, *(around.entry for around in outer.chain)) if each)
         instance = cache.expanded(use, entry.ref.span, make)
         self._used.update(each.spec.file for each in instance.with_modules if each.spec)
         # A macro gives the entry other fields, which do not differ either.

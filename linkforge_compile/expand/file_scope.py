@@ -85,12 +85,6 @@ class Use:
         """The use itself and those around it, that of the compiled file last."""
         return (self, *self.outer.chain) if self.outer else (self,)
 
-    @property
-    def place_in_robot(self) -> tuple[tuple[Span, str, str], ...]:
-        """The entries that lead to it, with their names and the values of their `for`; none for the compiled file."""
-        entries = (use.entry for use in self.chain if use.entry)
-        return tuple((entry.ref.span, entry.name, entry.repetition) for entry in entries)
-
     @cached_property
     def prefix(self) -> str | Fault:
         """The full prefix of the names of the file; FAULT if a part of it is faulty."""

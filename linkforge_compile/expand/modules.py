@@ -24,7 +24,7 @@ from linkforge_compile.expand.override import Override, apply_patch, report_empt
 from linkforge_compile.expand.values import describe_node
 from linkforge_compile.load.loader import SpecFile
 from linkforge_compile.schema.shapes import FREE, Shape, shapes
-from linkforge_compile.source import ModuleUse, SourceRef
+from linkforge_compile.source import ModuleUse, SourceRef, Span
 from linkforge_compile.syntax import YamlEntry, YamlFault, YamlList, YamlMap, YamlNode, YamlScalar
 
 
@@ -46,6 +46,11 @@ class ModuleEntry:
     overrides: tuple[Override, ...] = ()
     shared_link: str | None = None
     repetition: str = ""
+
+    @property
+    def copy_in_file(self) -> tuple[Span, str, str]:
+        """What tells it apart from every other entry of its file, and from other copies of the same `for`."""
+        return self.ref.span, self.name, self.repetition
 
 
 def read_modules(spec: SpecFile, evaluator: Evaluator, include_stack: tuple[ModuleUse, ...]) -> Iterator[ModuleEntry]:

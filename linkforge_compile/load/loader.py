@@ -271,10 +271,9 @@ class Loader:
 
 def _same_source(source: SourceFile, known: dict[Place, SourceFile]) -> SourceFile:
     """Return the known source if it has the same text at the same place; else the new one, which is known from now."""
-    place: Place = (source.name, source.path, source.order)
-    earlier = known.get(place)
-    if earlier is None or (earlier.text, earlier.included) != (source.text, source.included):
-        earlier = known[place] = source
+    earlier = known.get(source.place)
+    if earlier is None or not earlier.has_text_of(source):
+        earlier = known[source.place] = source
     return earlier
 
 

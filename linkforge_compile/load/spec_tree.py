@@ -59,7 +59,7 @@ class _CachedTree:
 
     def __init__(self, source: SourceFile, tree: YamlMap, values: int) -> None:
         self.source, self.tree, self.values = source, tree, values
-        self.place: Place = (source.name, source.path, source.order)
+        self.place: Place = source.place
 
     @cached_property
     def is_computed(self) -> bool:
@@ -77,9 +77,8 @@ class _TreeCache:
     def find(self, source: SourceFile) -> _CachedTree | None:
         """Return the cached tree of the same text at the same place, included by the same file."""
         with self._lock:
-            cached = self._trees.get((source.name, source.path, source.order))
-        is_same = cached and (cached.source.text, cached.source.included) == (source.text, source.included)
-        return cached if is_same else None
+            cached = self._trees.get(source.place)
+        return cached if cached and cached.source.has_text_of(source) else None
 
     def add(self, cached: _CachedTree) -> None:
         """Cache a tree in the place of the one before; drop the oldest if there are too many."""

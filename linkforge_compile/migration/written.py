@@ -92,8 +92,10 @@ class Writer:
         )
         without = frozenset[str]()
         if not is_plugin:
-            kind = element.attributes.get("type", ()) if element.tag == "joint" else ()
-            without = without_effect(element.tag, self._attribute(("joint", "type"), kind, outcomes, is_plugin=False))
+            kind = ""
+            if element.tag == "joint" and "type" in element.attributes:
+                kind = self._attribute(("joint", "type"), element.attributes["type"], outcomes, is_plugin=False)
+            without = without_effect(element.tag, kind)
         content = self.content(element.content, outcomes, is_plugin=is_plugin, without=without) + (mark or "")
         return f"<{element.tag}{attributes}>{content}</{element.tag}>" if content else f"<{element.tag}{attributes}/>"
 

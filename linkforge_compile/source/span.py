@@ -31,6 +31,15 @@ class SourceFile:
     included: Span | None = None
 
     @property
+    def place(self) -> tuple[str, Path | None, int]:
+        """What is the same of a file that is read at the same place in another compile."""
+        return self.name, self.path, self.order
+
+    def has_text_of(self, other: SourceFile) -> bool:
+        """Whether another file at its place has the same text and is included by the same file."""
+        return (self.text, self.included) == (other.text, other.included)
+
+    @property
     def shown(self) -> str:
         """The name as messages show it, without control characters that would reach a terminal or a build log."""
         return on_one_line(self.name)
